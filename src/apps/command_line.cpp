@@ -14,6 +14,7 @@
 #include "apps/devices/devices_command.h"
 #include "apps/devices/devices_help.h"
 #include "apps/help_text.h"
+#include "apps/number_range.h"
 #include "apps/stats/stats_command.h"
 #include "apps/stats/stats_help.h"
 #include "apps/study/study_command.h"
@@ -57,10 +58,10 @@ void add_trust_options(CLI::App& command, ReadingOptions& reading) {
       .add_option("--memory-limit", reading.memory_mb,
                   "Memory that reading a design may take (default: 20 times the files and 256 MB)")
       ->type_name("MB")
-      ->check(CLI::Range(1.0, 1e9));
+      ->check(number_range(1.0, 1e9));
   command.add_option("--seconds-limit", reading.seconds, "Time that reading a design may take (default 300)")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(number_range(0.0, 1e9));
   command.add_flag("--urls-above", reading.urls_above,
                    "Take in what the design names above its folder, too (../picture.png)");
 }
@@ -171,7 +172,7 @@ void add_run_options(CLI::App& touch, Entries& entries) {
           "Metres that the tip moves for each metre of a real device (default: its profile's, or so that "
           "the models fit its workspace)")
       ->type_name("S")
-      ->check(CLI::Range(0.01, 100.0));
+      ->check(number_range(0.01, 100.0));
   touch
       .add_option("--seconds", options.seconds,
                   "When to end (default: after 5 s of exploring, at the end of a path, by Ctrl-C with a real "
@@ -216,7 +217,7 @@ void add_info_options(CLI::App& info, InfoOptions& options) {
   add_reading_options(info, options.reading);
   info.add_option("--objects", options.most_objects, "Show at most N lines of the tree; 0: all (default 30)")
       ->type_name("N")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(number_range(0.0, 1e9));
   info.add_flag("--json", options.json, "Print the report as JSON (fields below)");
 }
 
@@ -273,7 +274,7 @@ void add_shot_options(CLI::App& shot, Entries& entries) {
   shot.add_option("--time", options.time,
                   "Of the motions in the design, s: draw it as it is then (default: at rest)")
       ->type_name("T")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(number_range(0.0, 1e9));
   shot.add_flag("--studio", options.studio,
                 "Leave the design's own lights off and light it as a studio does");
   shot.add_option("--background", entries.shot_background,

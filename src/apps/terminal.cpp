@@ -1,14 +1,33 @@
 #include "apps/terminal.h"
 
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <cstdio>
 
+#include "apps/interrupt.h"
 #include "base/terminal_text.h"
 
 namespace icome::apps {
 
 void tell(std::string_view sentence) { fmt::print(stderr, "icome: {}\n", base::terminal_text(sentence)); }
+
+bool ask(std::string_view question) {
+  fmt::print(stderr, "{} [y/N] ", base::terminal_text(question));
+  constexpr int kLook = 100;  // ms from one look at interrupted() to the next
+  char first = '\0';
+  while (!interrupted()) {
+    pollfd input = {STDIN_FILENO, POLLIN, 0};
+    if (::poll(&input, 1, kLook) <= 0) continue;
+    char letter = '\0';
+    if (::read(STDIN_FILENO, &letter, 1) != 1) return false;
+    if (letter == '\n') return first == 'y' || first == 'Y';
+    if (first == '\0') first = letter;
+  }
+  fmt::print(stderr, "\n");
+  return false;
+}
 
 void print(std::string_view text) {
   const std::string shown = base::terminal_text(text);

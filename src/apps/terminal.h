@@ -9,6 +9,9 @@ namespace icome::apps {
 
 /// "icome: The sentence." on standard error.
 void tell(std::string_view sentence);
+/// Asks on standard error, and waits for a line on standard input; true for one that begins with y. False at
+/// the end of the input, and when the run is asked to end (interrupt.h).
+bool ask(std::string_view question);
 /// On standard output: a report or JSON.
 void print(std::string_view text);
 

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <system_error>
+#include <vector>
 
 #include "base/near_names.h"
 #include "devices/axes.h"
@@ -88,7 +90,13 @@ class MappingReader {
   std::string source_;
 };
 
+std::string lower_case(std::string text) {
+  for (char& letter : text) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return text;
+}
+
 std::string file_name_of(std::string_view address) {
+  if (address.ends_with(':')) address.remove_suffix(1);
   std::string name;
   for (const char letter : address) {
     const bool plain =
@@ -96,6 +104,31 @@ std::string file_name_of(std::string_view address) {
     name += plain ? letter : '_';
   }
   return name + ".toml";
+}
+
+/// The file with a device's profile, however its address is spelled; empty: there is none. A file of the
+/// whole back-end counts for all its devices that have none of their own, and the only file of one of its
+/// devices for its first device, so that a limit that somebody set is not passed by.
+base::Result<std::filesystem::path> find_profile(std::string_view address) {
+  const std::filesystem::path own = mapping_path(address);
+  const std::string name = lower_case(own.filename().string());
+  const std::string back_end = lower_case(file_name_of(address.substr(0, address.find(':'))));
+  const std::string beginning = back_end.substr(0, back_end.size() - std::string_view(".toml").size()) + "_";
+  std::filesystem::path general;
+  std::vector<std::filesystem::path> others;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(own.parent_path(), error)) {
+    const std::string file = lower_case(entry.path().filename().string());
+    if (file == name) return entry.path();
+    if (file == back_end) general = entry.path();
+    if (file.starts_with(beginning) && file.ends_with(".toml")) others.push_back(entry.path());
+  }
+  if (name != back_end) return general;
+  if (others.size() > 1)
+    return base::fail(
+        fmt::format("{}: several of its devices have profiles ({}, {}); say which device is meant", address,
+                    others[0].string(), others[1].string()));
+  return others.empty() ? std::filesystem::path() : others.front();
 }
 
 }  // namespace
@@ -111,11 +144,12 @@ base::Result<DeviceMapping> parse_mapping(std::string_view text, const std::stri
 
 std::string mapping_text(const DeviceMapping& mapping, const std::string& made_by) {
   std::string text = fmt::format("# {}\n", made_by);
+  text += fmt::format("centre_m = [{:.6f}, {:.6f}, {:.6f}]  # the middle of the workspace, in these axes\n",
+                      mapping.centre.x(), mapping.centre.y(), mapping.centre.z());
   text += fmt::format(
-      "centre_m = [{:.6f}, {:.6f}, {:.6f}]  # the middle of the workspace, in the device's frame\n",
-      mapping.centre.x(), mapping.centre.y(), mapping.centre.z());
-  text += fmt::format("axes = \"{}\"  # the device's axes that point right, up and to the user\n",
-                      axes_text(mapping.ours_from_device.toRotationMatrix()));
+      "axes = \"{}\"  # which of its axes, as ICOME shows them without this, point right, up and to the "
+      "user\n",
+      axes_text(mapping.ours_from_device.toRotationMatrix()));
   if (mapping.scale)
     text += fmt::format("scale = {:.6g}  # m that the tip moves for each m of the hand\n", *mapping.scale);
   if (mapping.workspace_radius > 0.0)
@@ -133,23 +167,26 @@ std::filesystem::path mapping_path(std::string_view address) {
   if (config != nullptr && *config == '/') {
     folder = config;
   } else {
-    folder = std::filesystem::path(home != nullptr && *home != '\0' ? home : ".") / ".config";
+    if (home == nullptr || *home == '\0') return {};
+    folder = std::filesystem::path(home) / ".config";
   }
   return folder / "icome" / "devices" / file_name_of(address);
 }
 
 base::Result<DeviceMapping> read_mapping(std::string_view address) {
-  const std::filesystem::path path = mapping_path(address);
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) return DeviceMapping{};
-  const auto text = io::read_bytes(path, kLongestMapping);
+  const auto path = find_profile(address);
+  if (!path) return tl::unexpected(path.error());
+  if (path->empty()) return DeviceMapping{};
+  const auto text = io::read_bytes(*path, kLongestMapping);
   if (!text) return tl::unexpected(text.error());
-  return parse_mapping(*text, path.string());
+  return parse_mapping(*text, path->string());
 }
 
 base::Result<void> write_mapping(std::string_view address, const DeviceMapping& mapping,
                                  const std::string& made_by) {
   const std::filesystem::path path = mapping_path(address);
+  if (path.empty())
+    return base::fail("neither XDG_CONFIG_HOME nor HOME is set, so there is no place for a device's profile");
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
   auto file = io::NewFile::create(path);

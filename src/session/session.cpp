@@ -148,16 +148,8 @@ void SessionParts::take_followers() {
 }
 
 void SessionParts::tell_of_loss(std::size_t pointer) {
-  const std::string& name = hands.info(pointer).name;
-  const std::string why = hands.condition(pointer);
-  tell(
-      SessionEvent::Kind::DeviceLost,
-      why.empty()
-          ? fmt::format("The device \"{}\" does not answer: see that it is plugged in and switched on. It is "
-                        "used again as soon as it answers.",
-                        name)
-          : fmt::format("The device \"{}\" is lost: {}{} It is used again as soon as it answers.", name, why,
-                        why.ends_with('.') ? "" : "."));
+  tell(SessionEvent::Kind::DeviceLost,
+       devices::loss_text(hands.info(pointer).name, hands.condition(pointer)));
 }
 
 /// Tells people a device's condition, such as that its motors are hot, when it changes.

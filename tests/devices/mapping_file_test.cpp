@@ -70,7 +70,7 @@ TEST(MappingFile, IsWrittenAndReadByAddress) {
   const auto read = read_mapping("hd");
   EXPECT_TRUE(read && read->scale == 2.0);
   std::ofstream(mapping_path("hd")) << "scale = \"large\"\n";
-  const auto bad = read_mapping("hd");
+  const auto bad = read_mapping("hd:");
   ASSERT_FALSE(bad);
   EXPECT_NE(bad.error().message.find("hd.toml:1:"), std::string::npos);
   ::unsetenv("XDG_CONFIG_HOME");

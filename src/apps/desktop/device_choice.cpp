@@ -12,7 +12,8 @@ void add_device_options(CLI::App& app, DeviceChoice& choice) {
   app.add_option(
          "--device", choice.pointers,
          "A device to touch with, as icome devices lists it; may be given several times (default: the mouse)")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->allow_extra_args(false);
   app.add_option("--head", choice.head, "A tracker on the user's head, such as vrpn:Tracker0@localhost")
       ->type_name("NAME");
   app.add_option(

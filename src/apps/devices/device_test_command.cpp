@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -32,13 +31,9 @@ bool may_push(const DevicesOptions& options, const devices::DeviceInfo& info) {
     tell("no force was tried, as nobody was there to agree; --yes says so.");
     return false;
   }
-  std::cerr << fmt::format(
-      "After {:.0f} s at rest {} will push with up to {:.1f} N for some seconds. Hold it loosely. Go on? "
-      "[y/N] ",
-      options.seconds.value_or(kRestSeconds), info.name, std::min(options.force, info.max_force));
-  std::string line;
-  std::getline(std::cin, line);
-  return !line.empty() && (line[0] == 'y' || line[0] == 'Y');
+  return ask(fmt::format(
+      "After {:g} s at rest {} will push with up to {:.1f} N for some seconds. Hold it loosely. Go on?",
+      options.seconds.value_or(kRestSeconds), info.name, std::min(options.force, info.max_force)));
 }
 
 Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
@@ -120,6 +115,7 @@ base::Result<std::string> test(const DevicesOptions& options, StatusLine& status
   settings.rate_hz = options.rate_hz;
   settings.seconds = options.seconds.value_or(kRestSeconds);
   settings.force = may_push(options, (*device)->info()) ? options.force : 0.0;
+  if (interrupted()) return base::fail("interrupted: nothing was measured.");
   const auto result = session::test_device(**device, settings, [&](double seconds, double all) {
     status.progress(seconds < settings.seconds ? "Hold it still" : "Hold it loosely",
                     std::round(10.0 * seconds) / 10.0, all, "s");

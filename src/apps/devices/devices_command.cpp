@@ -10,6 +10,7 @@
 #include "apps/devices/device_test_command.h"
 #include "apps/devices/devices_help.h"
 #include "apps/devices/serve_command.h"
+#include "apps/number_range.h"
 #include "devices/catalogue.h"
 
 namespace icome::apps {
@@ -21,7 +22,7 @@ void add_common_options(CLI::App& command, DevicesOptions& options) {
       ->type_name("");
   command.add_option("--rate", options.rate_hz, "Ticks a second, 500 to 10000 (default 1000)")
       ->type_name("HZ")
-      ->check(CLI::Range(500.0, 10000.0));
+      ->check(number_range(500.0, 10000.0));
 }
 
 void add_test_options(CLI::App& devices, DevicesOptions& options) {
@@ -30,10 +31,10 @@ void add_test_options(CLI::App& devices, DevicesOptions& options) {
   add_common_options(test, options);
   test.add_option("--seconds", options.seconds, "Time at rest (default 2)")
       ->type_name("S")
-      ->check(CLI::Range(0.5, 300.0));
+      ->check(number_range(0.5, 300.0));
   test.add_option("--force", options.force, "The strongest force that it tries, 0 for none (default 0.5)")
       ->type_name("N")
-      ->check(CLI::Range(0.0, 5.0));
+      ->check(number_range(0.0, 5.0));
   test.add_flag("--yes", options.yes, "Give forces without asking");
   test.add_option("--picture", options.picture, "Draw the test into a PNG file")->type_name("OUT.png");
   test.add_flag("--json", options.json, "Print the result as JSON (fields below)");
@@ -46,17 +47,18 @@ void add_calibrate_options(CLI::App& devices, DevicesOptions& options) {
   add_common_options(calibrate, options);
   calibrate.add_option("--seconds", options.seconds, "Time to lead it through its workspace (default 10)")
       ->type_name("S")
-      ->check(CLI::Range(0.5, 300.0));
+      ->check(number_range(0.5, 300.0));
   calibrate
       .add_option("--axes", options.axes,
-                  "The device's axes that point right, up and to the user, such as y,z,x")
+                  "Which of its axes, as ICOME shows them without a profile, point right, up and to the user "
+                  "(default: x,y,z)")
       ->type_name("A,B,C");
   calibrate.add_option("--scale", options.scale, "Metres that the tip moves for each metre of the hand")
       ->type_name("S")
-      ->check(CLI::Range(0.01, 100.0));
+      ->check(number_range(0.01, 100.0));
   calibrate.add_option("--max-force", options.max_force, "Never give more than this")
       ->type_name("N")
-      ->check(CLI::Range(0.01, 1000.0));
+      ->check(number_range(0.01, 1000.0));
   calibrate
       .add_option("--clutch-button", options.clutch_button, "While this button is down the tip stays, from 0")
       ->type_name("B")
@@ -74,10 +76,11 @@ void add_serve_options(CLI::App& devices, DevicesOptions& options) {
   serve
       .add_option("--device", options.shared,
                   "A device's address; may be given several times (default: simulated)")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->allow_extra_args(false);
   serve.add_option("--rate", options.rate_hz, "Ticks a second, 500 to 10000 (default 1000)")
       ->type_name("HZ")
-      ->check(CLI::Range(500.0, 10000.0));
+      ->check(number_range(500.0, 10000.0));
   serve.add_flag("--json", options.json, "Say as JSON where it listens (fields below)");
   serve.callback([&options] { options.task = "serve"; });
 }

@@ -25,6 +25,7 @@ std::string json_report(const TouchFigures& figures) {
   report["haptic_load"] = {
       {"median", figures.load.median}, {"p999", figures.load.p999}, {"max", figures.load.max}};
   report["overruns"] = figures.overruns;
+  report["lost_ticks"] = figures.lost_ticks;
   report["max_force_n"] = figures.max_force;
   report["touch_fraction"] = figures.touch_fraction;
   report["pops"] = count_or_null(figures.pops);

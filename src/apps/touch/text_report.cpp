@@ -148,6 +148,8 @@ std::string text_report(const TouchFigures& figures, const std::vector<TouchMode
   add_run(table, figures, outcome, options);
   if (options.texture) table.row("texture", *options.texture);
   add_effects(table, figures.effects);
+  if (figures.lost_ticks > 0)
+    table.row("lost", fmt::format("{} without the device", counted(figures.lost_ticks, "tick")));
   table.row("touched", fmt::format("{} of the ticks", percent(figures.touch_fraction)));
   table.row("force", fmt::format("at most {:.3g} N", figures.max_force));
   if (figures.pops && figures.sticks && figures.silent && figures.pulls && figures.unjudged) {

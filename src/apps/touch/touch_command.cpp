@@ -267,6 +267,8 @@ void tell_odd_size(const TouchModel& model) {
 
 void tell_outcome(const RunOutcome& outcome) {
   if (outcome.interrupted) tell("interrupted: the report covers what was touched so far.");
+  if (outcome.device_lost)
+    tell("the device was not there at the end: the report covers what was touched before.");
   if (!outcome.notice.empty()) tell(outcome.notice);
   if (outcome.lost_rows > 0) {
     tell(fmt::format(
@@ -348,7 +350,7 @@ int run_touch(const TouchOptions& options) {
   std::fflush(stdout);
   const bool written = write_files(*prepared, log, figures, options, status);
   if (!options.json && written) print(names_of_files(options));
-  if (!written) return kFailed;
+  if (!written || outcome->device_lost) return kFailed;
   return outcome->interrupted && options.path ? kInterrupted : 0;
 }
 

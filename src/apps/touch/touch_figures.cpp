@@ -51,6 +51,7 @@ TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seco
   figures.load = exact_quantiles(log.tick_ns(), period);
   for (const std::uint32_t nanoseconds : log.tick_ns()) ++figures.load_bins[load_bin(nanoseconds / period)];
   figures.overruns = outcome.overruns;
+  figures.lost_ticks = outcome.lost_ticks;
   figures.max_force = log.max_force();
   if (log.ticks() > 0) {
     figures.touch_fraction = static_cast<double>(log.touching_ticks()) / static_cast<double>(log.ticks());

@@ -28,6 +28,7 @@ struct TouchFigures {
   realtime::Quantiles load;     // tick_us as a share of the period
   std::array<std::uint64_t, kLoadBins> load_bins{};  // ticks by load
   std::uint64_t overruns = 0;                        // ticks that were not done when the next was due
+  std::uint64_t lost_ticks = 0;                      // ticks without the device
   double max_force = 0.0;                            // N
   double touch_fraction = 0.0;                       // of the ticks
   std::optional<std::uint64_t> pops;                 // none without --check

@@ -1,6 +1,9 @@
 #include "apps/touch/touch_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -11,7 +14,9 @@
 
 #include "apps/interrupt.h"
 #include "apps/stopwatch.h"
+#include "apps/terminal.h"
 #include "apps/touch/effect_options.h"
+#include "devices/loss_text.h"
 #include "devices/simulated/simulated_device.h"
 #include "haptics/servo/servo.h"
 #include "realtime/loop.h"
@@ -45,8 +50,9 @@ std::size_t rows_within(const std::vector<double>& times, const std::optional<do
 }
 
 TickRow row_of(const haptics::TickReport& report, double t) {
-  const std::int32_t object =
-      report.contact.touching ? static_cast<std::int32_t>(report.object.index) : kNothingTouched;
+  // A device that is away touches nothing, wherever it was last.
+  const bool touches = report.contact.touching && report.status != devices::DeviceStatus::Lost;
+  const std::int32_t object = touches ? static_cast<std::int32_t>(report.object.index) : kNothingTouched;
   return {t, report.tip, report.contact.scp, report.force, object, report.time, report.own_ns()};
 }
 
@@ -62,6 +68,9 @@ class ClockedRun {
   /// One tick; false after the last. Real-time safe.
   bool tick(const realtime::TickInfo& info) {
     const haptics::TickReport& report = servo_.tick(info.dt);
+    const bool is_lost = report.status == devices::DeviceStatus::Lost;
+    if (is_lost) ++lost_ticks_;
+    device_lost_.store(is_lost, std::memory_order_relaxed);
     if (!rows_.try_push(row_of(report, static_cast<double>(info.index) / rate_hz_))) ++lost_rows_;
     return info.index < last_index_;
   }
@@ -80,15 +89,50 @@ class ClockedRun {
     }
   }
 
-  std::uint64_t lost_rows() const { return lost_rows_; }  // once the loop has ended
+  /// Was the device away in the newest tick? Any thread.
+  bool device_lost() const { return device_lost_.load(std::memory_order_relaxed); }
+  // Once the loop has ended.
+  std::uint64_t lost_rows() const { return lost_rows_; }
+  std::uint64_t lost_ticks() const { return lost_ticks_; }
 
  private:
   haptics::Servo& servo_;
   double rate_hz_;
   std::uint64_t last_index_;
   realtime::MessagePipe<TickRow> rows_;
-  std::uint64_t lost_rows_ = 0;  // written by the loop
-  double time_ = 0.0;            // s, of the last row logged
+  std::uint64_t lost_rows_ = 0;   // written by the loop
+  std::uint64_t lost_ticks_ = 0;  // likewise
+  std::atomic<bool> device_lost_ = false;
+  double time_ = 0.0;  // s, of the last row logged
+};
+
+/// Tells people when a device is lost and back, and what it says of itself meanwhile.
+class DeviceNews {
+ public:
+  explicit DeviceNews(const devices::PointerDevice& device) : device_(device) {}
+
+  void look(bool is_lost, StatusLine& status) {
+    if (const auto news = newest(is_lost)) {
+      status.clear();
+      tell(*news);
+    }
+  }
+
+ private:
+  std::optional<std::string> newest(bool is_lost) {
+    const std::string condition = device_.condition();
+    const bool is_other = condition != std::exchange(condition_, condition);
+    const bool was_lost = std::exchange(is_lost_, is_lost);
+    const std::string& name = device_.info().name;
+    if (is_lost && !was_lost) return devices::loss_text(name, condition);
+    if (was_lost && !is_lost) return fmt::format("The device \"{}\" is back.", name);
+    if (!is_lost && is_other && !condition.empty()) return fmt::format("{}: {}", name, condition);
+    return std::nullopt;
+  }
+
+  const devices::PointerDevice& device_;
+  std::string condition_;
+  bool is_lost_ = false;
 };
 
 RunOutcome outcome_of(const realtime::LoopRunner& loop) {
@@ -178,11 +222,13 @@ base::Result<RunOutcome> touch_on_clock(devices::PointerDevice& device, const ba
       loop_settings, [&run](const realtime::TickInfo& info) { return run.tick(info); });
   if (!loop) return tl::unexpected(loop.error());
   const Stopwatch started;
+  DeviceNews news(device);
   while ((*loop)->running() && !interrupted()) {
     std::this_thread::sleep_for(kDiaryPeriod);
     const double now = started.seconds();
     if (moving.moves()) moving.publish(servo, now, now + MovingScene::kPeriod);
     run.drain(log, status, seconds, MovingScene::kPeriod);
+    news.look(run.device_lost(), status);
   }
   (*loop)->stop();
   device.write(base::Vector3::Zero());
@@ -191,6 +237,8 @@ base::Result<RunOutcome> touch_on_clock(devices::PointerDevice& device, const ba
   RunOutcome outcome = outcome_of(**loop);
   outcome.interrupted = interrupted();
   outcome.lost_rows = run.lost_rows();
+  outcome.lost_ticks = run.lost_ticks();
+  outcome.device_lost = run.device_lost();
   outcome.wall_seconds = watch.seconds();
   outcome.capped = capped_feel(models, options, servo);
   return outcome;

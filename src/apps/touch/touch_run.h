@@ -23,6 +23,8 @@ struct RunOutcome {
   std::uint64_t skipped = 0;             // deadlines for which no tick ran
   std::uint64_t lost_rows = 0;           // ticks that the log could not take in time
   realtime::Quantiles lateness{};        // s, from deadline to start; zero when there was no clock
+  std::uint64_t lost_ticks = 0;          // ticks without the device
+  bool device_lost = false;              // it was not there in the last tick
   std::string notice;                    // what the system refused the servo loop; or empty
   double wall_seconds = 0.0;             // s, the run itself
   std::vector<std::string> capped = {};  // sentences of capped_feel()

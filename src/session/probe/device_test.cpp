@@ -57,7 +57,7 @@ class Probe {
     auto loop = realtime::LoopRunner::create(loop_settings,
                                              [this](const realtime::TickInfo& info) { return tick(info); });
     if (!loop) return tl::unexpected(loop.error());
-    while ((*loop)->running()) {
+    while ((*loop)->running() && !is_away()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       if (!goes_on(double(done_.load(std::memory_order_relaxed)) / settings_.rate_hz,
                    double(all_) / settings_.rate_hz))
@@ -71,8 +71,14 @@ class Probe {
 
   std::vector<ProbedTick>& ticks() { return ticks_; }
   std::uint64_t lost() const { return lost_; }
+  bool lost_at_end() const { return lost_in_a_row_.load(std::memory_order_relaxed) > 0; }
 
  private:
+  /// Has the device been away for so long that it hardly comes back?
+  bool is_away() const {
+    constexpr double kPatience = 3.0;  // s
+    return double(lost_in_a_row_.load(std::memory_order_relaxed)) > kPatience * settings_.rate_hz;
+  }
   bool tick(const realtime::TickInfo& info) {
     const std::size_t index = done_.load(std::memory_order_relaxed);
     if (index >= all_) return false;
@@ -82,13 +88,15 @@ class Probe {
     ProbedTick& tick = ticks_[index];
     tick.t = 1e-9 * double(now - start_);
     tick.fresh = status == devices::DeviceStatus::Ok;
-    if (status == devices::DeviceStatus::Lost) ++lost_;
+    const bool is_lost = status == devices::DeviceStatus::Lost;
+    if (is_lost) ++lost_;
+    lost_in_a_row_.store(is_lost ? lost_in_a_row_.load(std::memory_order_relaxed) + 1 : 0,
+                         std::memory_order_relaxed);
     tick.position = state_.position;
     Vector3 wanted = Vector3::Zero();
     if (settings_.force > 0.0 && tick.t >= settings_.seconds)
       wanted.y() = asked_force(tick.t - settings_.seconds, settings_.force);
-    tick.force = limiter_.limit(
-        wanted, info.dt, {.source_fresh = tick.fresh, .device_ok = status != devices::DeviceStatus::Lost});
+    tick.force = limiter_.limit(wanted, info.dt, {.source_fresh = tick.fresh, .device_ok = !is_lost});
     device_.write(tick.force);
     done_.store(index + 1, std::memory_order_release);
     return true;
@@ -103,6 +111,7 @@ class Probe {
   devices::PointerState state_;
   std::int64_t start_ = 0;  // ns, of the first tick
   std::uint64_t lost_ = 0;
+  std::atomic<std::uint64_t> lost_in_a_row_ = 0;  // ticks, up to the newest one
 };
 
 double quantile(std::vector<double>& values, double share) {
@@ -241,6 +250,7 @@ base::Result<DeviceTestResult> test_device(devices::PointerDevice& device, const
   DeviceTestResult result;
   result.ticks = std::move(probe.ticks());
   result.lost = probe.lost();
+  result.lost_at_end = probe.lost_at_end();
   measure_readings(result);
   if (result.readings == 0) return tl::unexpected(gives_nothing(device));
   measure_noise(result, settings.seconds);

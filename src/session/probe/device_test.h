@@ -45,6 +45,7 @@ struct DeviceTestResult {
   Vector3 noise = Vector3::Zero();  // m, standard deviation at rest, slow drift taken out
   std::uint64_t stalled = 0;        // ticks without a fresh reading
   std::uint64_t lost = 0;           // ticks in which the device was not there
+  bool lost_at_end = false;         // it was not there in the last tick, which ended the test
   std::optional<ForceTest> force;
   std::vector<ProbedTick> ticks;
 };
@@ -52,7 +53,8 @@ struct DeviceTestResult {
 /// Tests a device in the caller's time: at rest, and then, if the settings say so, with a force that grows
 /// slowly and with short pushes to and fro, from which the delay follows: a mass that is pushed from a time d
 /// on has gone a way D at t1 and 4 D at t2, so d is 2 t1 - t2 whatever its mass. All forces go through the
-/// limiter. `goes_on` is asked many times a second; false ends the test early. Fails when the servo loop
+/// limiter. `goes_on` is asked many times a second; false ends the test early, as does a device that has been
+/// away for 3 s. Fails when the servo loop
 /// cannot start or the device never reads.
 base::Result<DeviceTestResult> test_device(devices::PointerDevice& device, const DeviceTestSettings& settings,
                                            const std::function<bool(double seconds, double all)>& goes_on);
