@@ -11,7 +11,7 @@ namespace icome::devices {
 
 /// A device that a back-end could drive, there or not.
 struct DeviceEntry {
-  std::string name;     // the address that opens it, such as "haply:049D"; or what it is called, when absent
+  std::string name;     // the address that opens it, such as "haply:049D"; its back-end's when absent
   std::string family;   // "pointer", "navigation" or "head"
   std::string backend;  // BackEnd::name
   bool present = false;

@@ -72,6 +72,7 @@ std::string_view address_of(std::string_view name) {
 }
 
 base::Result<std::unique_ptr<PointerDevice>> open_raw(std::string_view name) {
+  if (name.empty()) return base::fail("no device is named; icome devices lists what is there");
   const BackEnd* const back_end = back_end_of(name);
   if (back_end == nullptr) {
     auto simulated = open_simulated(name);

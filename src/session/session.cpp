@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "devices/loss_text.h"
 #include "session/session_parts.h"
 
 namespace icome::session {

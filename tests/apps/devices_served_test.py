@@ -112,6 +112,34 @@ class ServedTest(ProgramTest):
             report = self.report("sphere:0.03", "--device", f"vrpn:Tracker0@127.0.0.1:{server.port}", "--seconds", "0.5")
         self.assertGreater(report["ticks"], 10)
 
+    def test_who_touches_is_told_when_the_device_is_gone(self):
+        with Serving() as serving:
+            place = f"vrpn:Pointer0@{serving.host}:{serving.port}"
+            with subprocess.Popen([PROGRAM, "touch", "box:0.2x0.2x0.2", "--hand-scale", "1", "--device", place,
+                                   "--seconds", "8", "--json"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as touching:
+                time.sleep(4)
+                serving.end()
+                answer, said = touching.communicate(timeout=120)
+        self.assertEqual(touching.returncode, 1, said)
+        self.assertIn("is lost", said)
+        self.assertIn("was not there at the end", said)
+        report = json.loads(answer)
+        self.assertGreater(report["lost_ticks"], 100)
+        self.assertLess(report["touch_fraction"], 0.99)
+
+    def test_a_test_ends_when_the_device_is_gone(self):
+        with Serving() as serving:
+            place = f"vrpn:Pointer0@{serving.host}:{serving.port}"
+            with subprocess.Popen([PROGRAM, "devices", "test", place, "--seconds", "60", "--json"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as testing:
+                time.sleep(3)
+                serving.end()
+                answer, said = testing.communicate(timeout=60)
+        self.assertEqual(testing.returncode, 1, said)
+        self.assertIn("is lost", said)
+        self.assertLess(json.loads(answer)["seconds"], 50)
+
     # An arm whose x points right, y away from the user and z up, and which counts in mm: its place (10, 20, 30) is
     # (0.010, 0.030, -0.020) m by ours, and a push upwards, by ours along y, is one along its z.
     ARM = "?axes=x,z,-y&scale=0.001&profile=touch&unit=1000&forces="

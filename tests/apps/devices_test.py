@@ -1,10 +1,12 @@
 """`icome devices` lists, tests and calibrates devices."""
 import json
 import os
+import signal
+import subprocess
 import tempfile
 import unittest
 
-from icome_program import ProgramTest, run
+from icome_program import PROGRAM, ProgramTest, run
 
 
 class DevicesTest(ProgramTest):
@@ -49,10 +51,41 @@ class DevicesTest(ProgramTest):
             self.assertIn("no profile was written", result.stderr)
             self.assertEqual(os.listdir(folder), [])
 
+    def test_the_question_can_be_left_by_ctrl_c(self):
+        keyboard, terminal = os.openpty()
+        self.addCleanup(os.close, keyboard)
+        with subprocess.Popen([PROGRAM, "devices", "test", "simulated", "--seconds", "0.5"], stdin=terminal,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as asking:
+            os.close(terminal)
+            said = ""
+            while not said.endswith("[y/N] "):
+                said += asking.stderr.read(1)
+            asking.send_signal(signal.SIGINT)
+            self.assertEqual(asking.wait(timeout=60), 130)
+
+    def test_a_limit_holds_however_the_device_is_spelled(self):
+        profile = self.folder / "icome" / "devices" / "simulated.toml"
+        profile.parent.mkdir(parents=True)
+        profile.write_text("max_force_n = 0.1\n")
+        for name in ("simulated", "simulated:", "simulated:Touch"):
+            answer = json.loads(run("devices", "test", name, "--yes", "--seconds", "0.5", "--json",
+                                    XDG_CONFIG_HOME=self.folder).stdout)
+            self.assertLessEqual(answer["force"]["strongest_n"], 0.1, name)
+
+    def test_what_is_no_number_is_refused(self):
+        for arguments in (("test", "simulated", "--rate"), ("test", "simulated", "--force"),
+                          ("calibrate", "simulated", "--scale"), ("calibrate", "simulated", "--max-force")):
+            result = run("devices", *arguments, "nan", XDG_CONFIG_HOME=self.folder)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertIn("nan is not a number", result.stderr)
+        self.assertEqual(run("touch", "sphere:0.05", "--hand-scale", "nan").returncode, 2)
+        self.assertEqual(run("devices", "calibrate", "simulated", "--axes", "y,z,-x").returncode, 2)
+
     def test_errors_say_what_there_is(self):
         result = run("devices", "test", "feather")
         self.assertEqual(result.returncode, 1)
         self.assertIn("icome devices", result.stderr)
+        self.assertEqual(run("devices", "test", "").returncode, 1)
         self.assertEqual(run("devices", "tset", "simulated").returncode, 2)
         self.assertEqual(run("touch", "sphere:0.05", "--device", "feather").returncode, 1)
 

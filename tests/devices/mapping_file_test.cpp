@@ -77,5 +77,31 @@ TEST(MappingFile, IsWrittenAndReadByAddress) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(MappingFile, IsFoundHoweverTheDeviceIsSpelled) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "icome-spelling-test";
+  std::filesystem::remove_all(folder);
+  ::setenv("XDG_CONFIG_HOME", folder.c_str(), 1);
+  const auto limit = [](const char* address) {
+    const auto mapping = read_mapping(address);
+    return mapping ? mapping->max_force : -1.0;
+  };
+  ASSERT_TRUE(write_mapping("haply:049D", {.max_force = 1.0}, "test"));
+  for (const char* address : {"haply:049D", "haply:049d", "haply", "haply:"})
+    EXPECT_EQ(limit(address), 1.0) << address;
+  EXPECT_EQ(limit("haply:0001"), 0.0) << "another device";
+  ASSERT_TRUE(write_mapping("haply", {.max_force = 2.0}, "test"));
+  EXPECT_EQ(limit("haply"), 2.0);
+  EXPECT_EQ(limit("haply:0001"), 2.0) << "the back-end's counts for all that have none";
+  EXPECT_EQ(limit("haply:049D"), 1.0);
+  ASSERT_TRUE(write_mapping("dhd:0", {.max_force = 1.0}, "test"));
+  ASSERT_TRUE(write_mapping("dhd:1", {.max_force = 2.0}, "test"));
+  EXPECT_EQ(limit("dhd"), -1.0) << "it might be either";
+  EXPECT_EQ(limit("hd"), 0.0);
+  std::filesystem::create_symlink(folder / "nowhere", mapping_path("hd"));
+  EXPECT_EQ(limit("hd"), -1.0) << "a file that cannot be read may hold a limit";
+  ::unsetenv("XDG_CONFIG_HOME");
+  std::filesystem::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace icome::devices

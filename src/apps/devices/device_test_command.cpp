@@ -11,7 +11,9 @@
 #include "apps/devices/device_test_picture.h"
 #include "apps/interrupt.h"
 #include "apps/terminal.h"
+#include "base/shown_text.h"
 #include "devices/catalogue.h"
+#include "devices/loss_text.h"
 #include "io/new_file.h"
 #include "session/probe/device_test.h"
 
@@ -66,7 +68,7 @@ std::string result_json(const DevicesOptions& options, const devices::PointerDev
 
 std::string result_text(const DevicesOptions& options, const devices::PointerDevice& device,
                         const DeviceTestResult& result) {
-  std::string text = fmt::format("{} ({})\n", device.info().name, options.name);
+  std::string text = fmt::format("{} ({})\n", base::shown_text(device.info().name), options.name);
   const auto row = [&text](const char* name, const std::string& value) {
     text += fmt::format("  {:<14}{}\n", name, value);
   };
@@ -98,7 +100,13 @@ base::Result<void> write_picture_of(const DeviceTestResult& result, const std::s
   return out.finish();
 }
 
-base::Result<std::string> test(const DevicesOptions& options, StatusLine& status) {
+/// The answer of a test, and whether the device was there to its end.
+struct Tested {
+  std::string text;
+  bool lost = false;
+};
+
+base::Result<Tested> test(const DevicesOptions& options, StatusLine& status) {
   // An impossible path is reported before the work.
   std::optional<io::NewFile> out;
   if (!options.picture.empty()) {
@@ -128,7 +136,12 @@ base::Result<std::string> test(const DevicesOptions& options, StatusLine& status
     if (const auto drawn = write_picture_of(*result, (*device)->info().name, *out); !drawn)
       return tl::unexpected(drawn.error());
   }
-  return options.json ? result_json(options, **device, *result) : result_text(options, **device, *result);
+  if (result->lost_at_end)
+    tell(devices::loss_text((*device)->info().name, (*device)->condition()) +
+         " The result covers what was measured before.");
+  return Tested{
+      options.json ? result_json(options, **device, *result) : result_text(options, **device, *result),
+      result->lost_at_end};
 }
 
 }  // namespace
@@ -136,10 +149,12 @@ base::Result<std::string> test(const DevicesOptions& options, StatusLine& status
 int run_device_test(const DevicesOptions& options) {
   catch_interrupts();
   StatusLine status;
-  const auto text = test(options, status);
-  if (!text) return end_without_result(text.error(), status);
-  const int printed = print_answer(*text);
-  return printed == 0 && interrupted() ? kDesignInterrupted : printed;
+  const auto tested = test(options, status);
+  if (!tested) return end_without_result(tested.error(), status);
+  const int printed = print_answer(tested->text);
+  if (printed != 0) return printed;
+  if (interrupted()) return kDesignInterrupted;
+  return tested->lost ? kDesignFailed : 0;
 }
 
 }  // namespace icome::apps

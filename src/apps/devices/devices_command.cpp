@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "apps/design/design_work.h"
@@ -11,6 +12,7 @@
 #include "apps/devices/devices_help.h"
 #include "apps/devices/serve_command.h"
 #include "apps/number_range.h"
+#include "devices/axes.h"
 #include "devices/catalogue.h"
 
 namespace icome::apps {
@@ -41,6 +43,11 @@ void add_test_options(CLI::App& devices, DevicesOptions& options) {
   test.callback([&options] { options.task = "test"; });
 }
 
+std::string names_axes(const std::string& text) {
+  const auto rotation = devices::rotation_from_axes(text);
+  return rotation ? std::string() : rotation.error().message;
+}
+
 void add_calibrate_options(CLI::App& devices, DevicesOptions& options) {
   CLI::App& calibrate = *devices.add_subcommand("calibrate", kDevicesCalibrateSummary);
   calibrate.footer(kDevicesCalibrateNotes);
@@ -52,7 +59,8 @@ void add_calibrate_options(CLI::App& devices, DevicesOptions& options) {
       .add_option("--axes", options.axes,
                   "Which of its axes, as ICOME shows them without a profile, point right, up and to the user "
                   "(default: x,y,z)")
-      ->type_name("A,B,C");
+      ->type_name("A,B,C")
+      ->check(names_axes);
   calibrate.add_option("--scale", options.scale, "Metres that the tip moves for each metre of the hand")
       ->type_name("S")
       ->check(number_range(0.01, 100.0));
@@ -97,6 +105,12 @@ std::string list_json(const std::vector<devices::DeviceEntry>& entries) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
+/// The text of a device or service, whose breaks of lines would pass for ours.
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 /// Lines of words, at most 100 characters each, indented.
 std::string in_lines(std::string_view words) {
   constexpr std::size_t kIndent = 6, kWidth = 100;
@@ -120,7 +134,8 @@ std::string list_text(const std::vector<devices::DeviceEntry>& entries) {
     text += present ? "There are:\n" : "\nNot there:\n";
     for (const devices::DeviceEntry& it : entries) {
       if (it.present != present) continue;
-      text += fmt::format("  {:<28} {} ({})\n", it.name, it.family, it.backend) + in_lines(it.why);
+      text += fmt::format("  {:<28} {} ({})\n", one_line(it.name), it.family, it.backend) +
+              in_lines(one_line(it.why));
     }
   }
   return text + "\nicome devices test NAME measures one; icome touch MODEL --device NAME touches with it.\n";

@@ -5,6 +5,8 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 
 namespace icome::devices {
 namespace {
@@ -34,7 +36,13 @@ base::Result<SharedLibrary> SharedLibrary::open(const LibrarySought& sought) {
   const bool is_chosen = chosen != nullptr && *chosen != '\0';
   const std::span<const char* const> names = is_chosen ? std::span(&chosen, 1) : sought.file_names;
   std::string trouble;
+  std::error_code error;
   for (const char* name : names) {
+    // What is no file, such as a pipe, would be waited for.
+    if (is_chosen && std::strchr(name, '/') != nullptr && !std::filesystem::is_regular_file(name, error)) {
+      trouble = "it is no file";
+      continue;
+    }
     if (void* handle = dlopen(name, kLoading)) return SharedLibrary(handle, name, sought.what);
     if (trouble.empty()) trouble = trouble_with(name);
   }

@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view kHaplyName = "haply";
 
 DeviceEntry absent_haply(std::string why) {
-  return {"Haply Inverse3", "pointer", std::string(kHaplyName), false, std::move(why)};
+  return {std::string(kHaplyName), "pointer", std::string(kHaplyName), false, std::move(why)};
 }
 
 DeviceEntry haply_entry(const InverseService& service, std::size_t index, const HaplySettings& settings) {

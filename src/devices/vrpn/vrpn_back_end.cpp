@@ -46,11 +46,11 @@ std::set<std::string> heard_trackers(vrpn::ClientLink& link) {
 
 void add_devices_of(const std::string& server, std::vector<DeviceEntry>& entries) {
   const auto address = VrpnAddress::parse("@" + server);
-  if (!address) return entries.push_back(entry("VRPN", false, address.error().message));
+  if (!address) return entries.push_back(entry(std::string(kVrpn), false, address.error().message));
   auto link = vrpn::ClientLink::connect(*address, kPatience);
   if (!link) {
     return entries.push_back(
-        entry("VRPN", false,
+        entry(std::string(kVrpn), false,
               link.error().message + "; servers elsewhere are named in the environment variable ICOME_VRPN"));
   }
   const std::string place = address->host + ":" + std::to_string(address->port);
@@ -62,8 +62,9 @@ void add_devices_of(const std::string& server, std::vector<DeviceEntry>& entries
                                    : "a tracker of a VRPN server, without forces; also for the head"));
   }
   if (trackers.empty()) {
-    entries.push_back(entry(
-        "VRPN", false, "the VRPN server at " + place + " has no tracker that reports; look at its devices"));
+    entries.push_back(
+        entry(std::string(kVrpn), false,
+              "the VRPN server at " + place + " has no tracker that reports; look at its devices"));
   }
   (*link)->leave();
 }
