@@ -9,8 +9,8 @@
 namespace icome::devices {
 
 // A device's profile, device.toml, holds its mapping: `centre_m`, `axes` (the device's axes that point right,
-// up and to the user, as in axes.h), `scale`, `workspace_radius_m`, `max_force_n`, `clutch_button`. Keys that
-// are left out keep their values of DeviceMapping.
+// up and to the user, as in axes.h), `scale`, `scale_follows_view`, `workspace_radius_m`, `max_force_n`,
+// `clutch_button`. Keys that are left out keep their values of DeviceMapping.
 
 /// Reads a mapping from text; the error names the source, line and column.
 base::Result<DeviceMapping> parse_mapping(std::string_view text, const std::string& source);
