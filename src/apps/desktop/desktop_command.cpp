@@ -28,9 +28,9 @@ namespace {
 base::Result<session::SessionSettings> settings_with_devices(const DesktopCommandOptions& options) {
   session::SessionSettings settings = desktop_settings();
   for (const std::string& name : options.devices) {
-    auto device = devices::open_device(name);
+    auto device = session::open_connection(name);
     if (!device) return base::fail("--device: " + device.error().message);
-    settings.pointers.push_back(std::move(*device));
+    settings.connections.push_back(std::move(*device));
   }
   if (!options.head.empty()) {
     auto head = devices::open_head(options.head);
