@@ -114,13 +114,13 @@ void DevicePanel::Parts::build_address() {
   across->setContentsMargins(0, 0, 0, 0);
   address = new QLineEdit(row);
   address->setAccessibleName("Address of a device");
-  address->setPlaceholderText("vrpn:Tracker0@host");
+  address->setPlaceholderText("or vrpn:Tracker0@host");
   address->setToolTip("A device that is not listed: BACKEND:WHICH, or the name of a profile such as Touch");
   auto* button = new QPushButton("Connect", row);
   button->setAccessibleName("Connect this address");
   across->addWidget(address, 1);
   across->addWidget(button);
-  found->add_row("Another", "A device that is not listed", {row});
+  found->add_wide(row);
   const auto connect_it = [this] {
     const std::string wanted = address->text().trimmed().toStdString();
     if (!wanted.empty()) open(wanted);
