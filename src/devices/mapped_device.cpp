@@ -26,6 +26,14 @@ MappedDevice::MappedDevice(std::unique_ptr<PointerDevice> device, const DeviceMa
       scale_(mapping.scale.value_or(1.0)),
       info_(info_through(device_->info(), mapping)) {}
 
+void MappedDevice::set_mapping(const DeviceMapping& mapping) {
+  mapping_ = mapping;
+  scale_ = mapping.scale.value_or(1.0);
+  info_ = info_through(device_->info(), mapping);
+  now_ = {};
+  clutch_.publish(now_);
+}
+
 DeviceStatus MappedDevice::read(PointerState& state) {
   PointerState raw = state;
   raw.jumped = raw.parked = false;
@@ -34,11 +42,11 @@ DeviceStatus MappedDevice::read(PointerState& state) {
   const Quaternion& turn = mapping_.ours_from_device;
   const Vector3 place = scale_ * (turn * (raw.position - mapping_.centre));
   const bool clutch = mapping_.clutch_button >= 0 && ((raw.buttons >> mapping_.clutch_button) & 1U) != 0;
-  const bool let_go = clutched_ && !clutch;
+  const bool let_go = now_.held && !clutch;
   // The reading at which the clutch is let go of still moves the shift, not the tip.
-  if (clutch || let_go) shift_ = tip_ - place;
-  clutched_ = clutch;
-  tip_ = place + shift_;
+  if (clutch || let_go) now_ = {clutch, tip_ - place};
+  if (clutch || let_go) clutch_.publish(now_);
+  tip_ = place + now_.shift;
   state = raw;
   state.position = tip_;
   state.velocity = clutch ? Vector3::Zero() : Vector3(scale_ * (turn * raw.velocity));

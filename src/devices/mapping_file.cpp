@@ -37,13 +37,16 @@ class MappingReader {
       mapping.scale = number(value, member.key, 0.01, 100.0);
     } else if (member.key == "workspace_radius_m") {
       mapping.workspace_radius = number(value, member.key, 0.001, 10.0);
+    } else if (member.key == "scale_follows_view") {
+      take_following(value);
     } else if (member.key == "max_force_n") {
       mapping.max_force = number(value, member.key, 0.01, 1000.0);
     } else if (member.key == "clutch_button") {
       take_button(value);
     } else if (member.key != "device" && member.key != "made_by") {
-      const std::vector<std::string> known = {"centre_m",    "axes",          "scale",  "workspace_radius_m",
-                                              "max_force_n", "clutch_button", "device", "made_by"};
+      const std::vector<std::string> known = {
+          "centre_m",      "axes",   "scale",  "scale_follows_view", "workspace_radius_m", "max_force_n",
+          "clutch_button", "device", "made_by"};
       fail(member.place,
            fmt::format("a device has no key \"{}\"{}", member.key, base::suggestion(member.key, known)));
     }
@@ -85,6 +88,12 @@ class MappingReader {
     if (button != std::floor(button))
       fail(node.place, "clutch_button must be a whole number, counted from 0");
     mapping.clutch_button = int(button);
+  }
+
+  void take_following(const TomlNode& node) {
+    if (node.kind != TomlNode::Kind::Boolean)
+      return fail(node.place, "scale_follows_view must be true or false");
+    mapping.scale_follows_view = node.boolean;
   }
 
   std::string source_;
@@ -152,6 +161,8 @@ std::string mapping_text(const DeviceMapping& mapping, const std::string& made_b
       axes_text(mapping.ours_from_device.toRotationMatrix()));
   if (mapping.scale)
     text += fmt::format("scale = {:.6g}  # m that the tip moves for each m of the hand\n", *mapping.scale);
+  if (mapping.scale_follows_view)
+    text += "scale_follows_view = true  # in the window: the workspace spans what is seen\n";
   if (mapping.workspace_radius > 0.0)
     text += fmt::format("workspace_radius_m = {:.6g}\n", mapping.workspace_radius);
   if (mapping.max_force > 0.0) text += fmt::format("max_force_n = {:.6g}\n", mapping.max_force);

@@ -9,8 +9,9 @@
 namespace icome::devices {
 
 // A device's profile, device.toml, holds its mapping: `centre_m`, `axes` (which axes of the readings as the
-// back-end gives them point right, up and to the user, as in axes.h: "x,y,z" where it is right already), `scale`, `workspace_radius_m`, `max_force_n`, `clutch_button`. Keys that
-// are left out keep their values of DeviceMapping.
+// back-end gives them point right, up and to the user, as in axes.h: "x,y,z" where it is right already),
+// `scale`, `scale_follows_view`, `workspace_radius_m`, `max_force_n`, `clutch_button`. Keys that are left out
+// keep their values of DeviceMapping.
 
 /// Reads a mapping from text; the error names the source, line and column.
 base::Result<DeviceMapping> parse_mapping(std::string_view text, const std::string& source);

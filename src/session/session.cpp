@@ -14,14 +14,6 @@
 namespace icome::session {
 namespace {
 
-/// The hand that the mouse drives where there is no device.
-std::unique_ptr<devices::SimulatedDevice> make_mouse_hand(double rate_hz) {
-  devices::SimulatedSettings settings;
-  settings.info.name = "mouse";
-  settings.rate = rate_hz;
-  return std::make_unique<devices::SimulatedDevice>(std::move(settings));
-}
-
 HapticRepresentationSettings felt_settings(const haptics::ServoSettings& servo) {
   HapticRepresentationSettings settings;
   settings.felt.tip_radius = servo.scp.tip_radius;
@@ -35,22 +27,17 @@ HapticRepresentationSettings felt_settings(const haptics::ServoSettings& servo) 
 }  // namespace
 
 SessionParts::SessionParts(SessionSettings given,
-                           std::vector<std::unique_ptr<devices::PointerDevice>> devices,
-                           devices::SimulatedDevice* mouse)
+                           std::vector<std::unique_ptr<devices::PointerDevice>> devices)
     : settings(std::move(given)),
       user(std::move(settings.navigation), std::move(settings.head)),
-      display(devices.size()),
-      mouse_hand(mouse),
+      display(HapticLoop::kMostPointers),
       hands(std::move(devices), settings.servo, display),
-      grabs(hands.pointers()),
-      part_grabs(hands.pointers()),
-      point_grabs(hands.pointers()),
-      ungrabbed(hands.pointers(), false),
-      lost(hands.pointers(), false),
-      losses(hands.pointers(), 0),
-      conditions(hands.pointers()),
+      pointers_so_far(hands.pointers()),
+      pointers(hands.pointers()),
       felt({haptics::HapticScene::compile({}), std::make_shared<const TouchedNames>()}),
-      seen(std::make_shared<const render::RenderScene>()) {}
+      seen(std::make_shared<const render::RenderScene>()) {
+  for (std::size_t i = 0; i < pointers.size(); ++i) pointers[i].number = i + 1;
+}
 
 SessionParts::~SessionParts() {
   finish_saving();
@@ -61,31 +48,32 @@ SessionParts::~SessionParts() {
 
 base::Result<std::unique_ptr<Session>> Session::create(SessionSettings settings) {
   auto devices = std::move(settings.pointers);
-  devices::SimulatedDevice* mouse = nullptr;
-  if (devices.empty()) {
-    auto hand = make_mouse_hand(settings.servo.rate_hz);
-    hand->park(base::Vector3::Zero());  // as Parts has it, until there is an eye to be at
-    mouse = hand.get();
-    devices.push_back(std::move(hand));
-  }
+  if (devices.size() > HapticLoop::kMostPointers)
+    return base::fail(fmt::format("A session has at most {} pointers.", HapticLoop::kMostPointers));
+  const bool has_mouse = devices.empty();
+  auto connections = std::move(settings.connections);
+  if (connections.size() >= HapticLoop::kMostPointers)
+    return base::fail(fmt::format("A session has at most {} devices.", HapticLoop::kMostPointers - 1));
   const bool realtime = settings.realtime_priority;
-  auto parts = std::make_unique<SessionParts>(std::move(settings), std::move(devices), mouse);
+  auto parts = std::make_unique<SessionParts>(std::move(settings), std::move(devices));
   try {
     parts->start_followers();
   } catch (const std::system_error& error) {
     return base::fail(fmt::format(
         "The system gave no threads for a session ({}): close other programs and try again.", error.what()));
   }
+  if (has_mouse) parts->take_in_mouse();
   if (const auto started = parts->hands.start(realtime); !started) return tl::unexpected(started.error());
   if (const std::string& notice = parts->hands.loop()->report().notice; !notice.empty())
     parts->tell(SessionEvent::Kind::Notice, notice);
+  for (PointerConnection& it : connections) parts->take_in_device(std::move(it));
   parts->open_world({}, {});
   return std::unique_ptr<Session>(new Session(std::move(parts)));
 }
 
 void SessionParts::start_followers() {
   followers.push_back(std::make_unique<Follower>(
-      queue, std::make_unique<HapticFollower>(felt_settings(settings.servo), hands.servos(), felt),
+      queue, std::make_unique<HapticFollower>(felt_settings(settings.servo), hands.felt(), felt),
       "felt world"));
   // A tip with a radius feels changing shapes as they are at t = 0, and so they are seen.
   const bool shapes_change = !(settings.servo.scp.tip_radius > 0.0);
@@ -118,7 +106,8 @@ void SessionParts::take_in() {
   take_files();
   take_followers();
   hands.update();
-  felt.update();
+  close_gone();
+  if (felt.update()) capped = felt.read().capped;
   seen.update();
   tell_what_is_not_as_it_is();
   notice_devices();
@@ -156,7 +145,7 @@ void SessionParts::tell_of_loss(std::size_t pointer) {
 /// Tells people a device's condition, such as that its motors are hot, when it changes.
 void SessionParts::tell_condition(std::size_t pointer) {
   const std::string condition = hands.condition(pointer);
-  if (condition == std::exchange(conditions[pointer], condition) || condition.empty()) return;
+  if (condition == std::exchange(pointers[pointer].condition, condition) || condition.empty()) return;
   tell(SessionEvent::Kind::Notice, fmt::format("{}: {}", hands.info(pointer).name, condition));
 }
 
@@ -166,12 +155,13 @@ void SessionParts::notice_devices() {
     if (pointer.time == 0) continue;  // no tick yet
     const bool is_lost = pointer.status == devices::DeviceStatus::Lost;
     // A device that was lost and came back in between is reported, too.
-    if (pointer.losses > std::exchange(losses[i], pointer.losses) && !lost[i]) {
-      lost[i] = true;
+    PointerParts& known = pointers[i];
+    if (pointer.losses > std::exchange(known.losses, pointer.losses) && !known.lost) {
+      known.lost = true;
       tell_of_loss(i);
     }
-    if (lost[i] && !is_lost) {
-      lost[i] = false;
+    if (known.lost && !is_lost) {
+      known.lost = false;
       tell(SessionEvent::Kind::DeviceBack, fmt::format("The device \"{}\" is back.", hands.info(i).name));
     }
     if (!is_lost) tell_condition(i);
@@ -197,15 +187,16 @@ void Session::move_held() {
 
 void Session::move_held_by_touch() {
   for (std::size_t i = 0; i < parts_->hands.pointers(); ++i) {
-    if (parts_->ungrabbed[i] && (parts_->hands.view(i).buttons & 1U) != 0) continue;
-    parts_->ungrabbed[i] = false;
+    PointerParts& pointer = parts_->pointers[i];
+    if (pointer.ungrabbed && (parts_->hands.view(i).buttons & 1U) != 0) continue;
+    pointer.ungrabbed = false;
     std::string refused;
-    const bool held_part = parts_->part_grabs[i].holds();
-    auto feel = parts_->part_grabs[i].update(*this, i, parts_->revisions, refused);
-    const bool holds_part = parts_->part_grabs[i].holds();
+    const bool held_part = pointer.part_grab.holds();
+    auto feel = pointer.part_grab.update(*this, i, parts_->revisions, refused);
+    const bool holds_part = pointer.part_grab.holds();
     // A press that has lost a part takes hold of nothing else.
-    if (held_part && !holds_part) parts_->ungrabbed[i] = true;
-    if (!held_part && !holds_part) feel = parts_->grabs[i].update(*this, i, parts_->revisions, refused);
+    if (held_part && !holds_part) pointer.ungrabbed = true;
+    if (!held_part && !holds_part) feel = pointer.grab.update(*this, i, parts_->revisions, refused);
     if (feel) parts_->hands.grip(i, *feel);
     if (!refused.empty()) parts_->tell(SessionEvent::Kind::Notice, refused);
   }
@@ -214,10 +205,10 @@ void Session::move_held_by_touch() {
 void Session::move_points() {
   parts_->shaping->follow(world(), selection());
   for (std::size_t i = 0; i < parts_->hands.pointers(); ++i) {
-    if (i == 0 && parts_->mouse_hand && !parts_->hand_is_aimed) continue;  // it lies aside
+    if (parts_->is_mouse(i) && !parts_->hand_is_aimed) continue;  // it lies aside
     std::string refused;
     const auto feel =
-        parts_->point_grabs[i].update(*this, i, parts_->revisions, parts_->grab_settings, refused);
+        parts_->pointers[i].point_grab.update(*this, i, parts_->revisions, parts_->grab_settings, refused);
     if (feel) parts_->hands.grip(i, *feel);
     if (!refused.empty()) parts_->tell(SessionEvent::Kind::Notice, refused);
   }

@@ -22,9 +22,12 @@
 namespace icome::session {
 
 struct SessionSettings {
-  /// Devices that the session then owns. Without pointers there is one that the mouse drives: a simulated
-  /// hand.
+  /// Devices that the session then owns, used as they are. Without any there is one that the mouse drives: a
+  /// simulated hand.
   std::vector<std::unique_ptr<devices::PointerDevice>> pointers = {};
+  /// Devices that are connected from the start, as SessionHands::connect() does; the mouse's hand is beside
+  /// them.
+  std::vector<PointerConnection> connections = {};
   std::unique_ptr<devices::NavigationDevice> navigation = nullptr;  // may be null
   std::unique_ptr<devices::HeadDevice> head = nullptr;              // may be null
   haptics::ServoSettings servo = {};

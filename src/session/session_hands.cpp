@@ -1,6 +1,30 @@
+#include <utility>
+
 #include "session/session_parts.h"
 
 namespace icome::session {
+/// Lets go of what a pointer holds: it may not be there to be held any more.
+void SessionParts::let_go(std::size_t pointer) {
+  PointerParts& it = pointers[pointer];
+  if (it.grab.holds() || it.part_grab.holds() || it.point_grab.holds()) hands.grip(pointer, {});
+  if (it.part_grab.holds()) mark_part(std::nullopt);
+  it.grab = {};
+  it.part_grab = {};
+  it.point_grab = {};
+  it.ungrabbed = true;
+}
+
+void SessionParts::let_go_of_technique() {
+  if (!technique || !technique->holds()) return;
+  technique->let_go();
+  feel_held(false);
+}
+
+bool SessionParts::is_held(std::size_t pointer) const {
+  const PointerParts& it = pointers[pointer];
+  const bool by_technique = pointer == 0 && technique && technique->holds();
+  return by_technique || it.grab.holds() || it.part_grab.holds() || it.point_grab.holds();
+}
 
 void SessionHands::set_grab(const GrabSettings& settings) { parts_.grab_settings = settings; }
 
@@ -8,13 +32,9 @@ const GrabSettings& SessionHands::grab() const { return parts_.grab_settings; }
 
 Surroundings& SessionHands::surroundings() { return parts_.surroundings; }
 
-bool SessionHands::holds(std::size_t index) const {
-  const bool by_technique = index == 0 && parts_.technique && parts_.technique->holds();
-  return by_technique || parts_.grabs[index].holds() || parts_.part_grabs[index].holds() ||
-         parts_.point_grabs[index].holds();
-}
+bool SessionHands::holds(std::size_t index) const { return parts_.is_held(index); }
 
-bool SessionHands::is_mouse_driven() const { return parts_.mouse_hand != nullptr; }
+bool SessionHands::is_mouse_driven() const { return parts_.is_mouse(0); }
 
 void SessionHands::hold_pointer(const std::optional<base::Vector3>& place) {
   haptics::GripFeel feel;
@@ -45,12 +65,11 @@ base::Result<void> SessionHands::set_shaping(const std::optional<interaction::Sh
   } else {
     parts_.shaping.reset();
   }
-  // Held things are let go: they may not be there to be held any more.
   for (std::size_t i = 0; i < parts_.hands.pointers(); ++i) {
     if (holds(i)) parts_.hands.grip(i, {});
-    parts_.grabs[i] = {};
-    parts_.part_grabs[i] = {};
-    parts_.point_grabs[i] = {};
+    const bool ungrabbed = parts_.pointers[i].ungrabbed;
+    parts_.let_go(i);
+    parts_.pointers[i].ungrabbed = ungrabbed;
   }
   if (parts_.technique) parts_.technique->let_go();
   parts_.mouse_marks.reset();
@@ -91,8 +110,7 @@ std::optional<world::ObjectId> SessionHands::touched(std::size_t index) const {
 
 const std::vector<haptics::CappedEffect>& SessionHands::capped_effects() const {
   static const std::vector<haptics::CappedEffect> kNone;
-  const auto& capped = parts_.felt.read().capped;
-  return capped ? *capped : kNone;
+  return parts_.capped ? *parts_.capped : kNone;
 }
 
 void SessionHands::aim(const base::Vector3& position) {
@@ -105,7 +123,9 @@ void SessionHands::put(const base::Vector3& position) {
   parts_.put(position);
 }
 
-void SessionHands::park() { parts_.hand_is_aimed = false; }
+void SessionHands::park() {
+  if (std::exchange(parts_.hand_is_aimed, false)) parts_.look_is_new = true;
+}
 
 std::vector<ForceSample> SessionHands::take_forces() { return parts_.hands.take_forces(); }
 

@@ -13,6 +13,7 @@
 #include "realtime/loop.h"
 #include "session/felt/haptic_representation.h"
 #include "session/hands/hand_grab.h"
+#include "session/hands/pointer_connection.h"
 #include "session/hands/pointer_view.h"
 #include "session/hands/surroundings.h"
 
@@ -27,6 +28,19 @@ struct ServoHealth {
   realtime::LoopSummary summary = {};
   std::array<std::uint64_t, realtime::LoopRecorder::kLoadBins> load_histogram = {};  // since the start
   std::string notice = {};  // what the system refused; or empty
+};
+
+/// A pointer's device as a person knows it.
+struct PointerUse {
+  std::uint64_t number = 0;  // of the pointer, which keeps it wherever its index goes
+  std::string address = {};  // by which it was opened; empty: it was not connected by one
+  /// The mapping that it is used through; its scale is the one of now. None: it has none to change.
+  std::optional<devices::DeviceMapping> mapping = {};
+  double own_radius = 0.0;     // m, of its workspace in the device's frame
+  std::string condition = {};  // PointerDevice::condition()
+  bool is_mouse = false;       // the mouse drives it
+  bool clutched = false;       // its clutch is held
+  bool shows_workspace = false;
 };
 
 /// The pointers of a session: what they touch and hold, how things are dragged, the hand that the mouse
@@ -59,6 +73,27 @@ class SessionHands {
   Surroundings& surroundings();
   /// Is the first pointer the simulated hand that the mouse drives?
   bool is_mouse_driven() const;
+  /// The pointer that the mouse drives: the last one; none where the session was given its pointers.
+  std::optional<std::size_t> mouse() const;
+
+  /// Takes a device in while all goes on: its forces begin with the ramp, its workspace lies where those of
+  /// the others do, and it is shown for two seconds. The devices come in the order of connecting, then the
+  /// mouse's hand. Gives its index. Fails where there are too many.
+  base::Result<std::size_t> connect(PointerConnection connection);
+  /// Lets go of a pointer, and of what it holds: the next ones move up. Its device is without force some
+  /// ticks later, and is closed by a thread of its own. The last pointer makes place for the mouse's hand.
+  /// Fails for that hand.
+  base::Result<void> disconnect(std::size_t index);
+  /// Is a device of this address still being closed? Until then it cannot be opened again.
+  bool is_closing(const std::string& address) const;
+  /// How a pointer's device is used.
+  PointerUse use(std::size_t index) const;
+  /// Changes the mapping of a connected device: it is let go of, and comes back softly some ticks later.
+  /// Fails where it has none, and on values out of the ranges of DeviceMapping.
+  base::Result<void> set_mapping(std::size_t index, const devices::DeviceMapping& mapping);
+  /// Shows the workspace of a pointer in the scene, or only for two seconds after it has come or changed, and
+  /// while its clutch is held.
+  void show_workspace(std::size_t index, bool shown);
   /// Keeps the first pointer at a place of the stage by springs, where it touches nothing, or lets it go.
   /// Only with GrabSettings::takes_hold set to false: hands that take hold have springs of their own.
   void hold_pointer(const std::optional<base::Vector3>& place);

@@ -8,13 +8,16 @@
 
 #include "base/clock.h"
 #include "devices/simulated/simulated_device.h"
+#include "session/background_task.h"
 #include "session/display/effect_symbols.h"
 #include "session/display/render_follower.h"
+#include "session/display/workspace_marks.h"
 #include "session/felt/haptic_follower.h"
 #include "session/felt/haptic_loop.h"
 #include "session/hands/hand_grab.h"
 #include "session/hands/part_grab.h"
 #include "session/hands/point_grab.h"
+#include "session/hands/pointer_connection.h"
 #include "session/hands/target_maker.h"
 #include "session/hands/user_interaction.h"
 #include "session/revisions.h"
@@ -32,10 +35,31 @@ inline double session_seconds() {
   return 1e-9 * double(base::steady_nanoseconds() - kStart);
 }
 
+/// What main knows of one pointer beside its place.
+struct PointerParts {
+  HandGrab grab = {};
+  PartGrab part_grab = {};
+  PointGrab point_grab = {};
+  bool ungrabbed = false;      // it begins to grab when its button has come up
+  bool lost = false;           // its device, as a person was told last
+  std::uint64_t losses = 0;    // that a person was told of
+  std::string condition = {};  // of its device, as a person was told last
+  std::uint64_t number = 0;    // PointerUse::number
+  std::string address = {};    // of its device; empty: the session was given it without one
+  bool shows_workspace = false;
+  double seen_until = 0.0;  // s, of session_seconds: until then its workspace is shown in any case
+};
+
+/// A device on its way out: nobody waits until it is closed.
+struct ClosingDevice {
+  std::string address = {};
+  const devices::PointerDevice* device = nullptr;        // to be compared only
+  std::unique_ptr<BackgroundTask<bool>> task = nullptr;  // null: the servo may still use it
+};
+
 /// The parts of a session. All of them are main's, but for those of the session's other threads.
 struct SessionParts {
-  SessionParts(SessionSettings settings, std::vector<std::unique_ptr<devices::PointerDevice>> devices,
-               devices::SimulatedDevice* mouse_hand);
+  SessionParts(SessionSettings settings, std::vector<std::unique_ptr<devices::PointerDevice>> devices);
   ~SessionParts();
 
   // session_history.cpp
@@ -58,6 +82,22 @@ struct SessionParts {
   void take_files();
   void finish_saving();
 
+  // session_devices.cpp
+  std::optional<std::size_t> mouse() const;
+  bool is_mouse(std::size_t pointer) const { return mouse_hand && mouse() == pointer; }
+  void take_in_device(PointerConnection connection);
+  void take_in_mouse();
+  void take_out(std::size_t pointer);
+  void remap(std::size_t pointer, const devices::DeviceMapping& mapping);
+  void close_gone();
+  void renew_capped();
+  void follow_view_scale(double dt);
+
+  // session_hands.cpp
+  void let_go(std::size_t pointer);
+  void let_go_of_technique();
+  bool is_held(std::size_t pointer) const;
+
   // session_view.cpp
   void move_user();
   void go_home();
@@ -68,6 +108,7 @@ struct SessionParts {
   void renew_symbols();
   void renew_parts();
   void renew_handles();
+  void renew_workspaces();
   void mark_part(const std::optional<MarkedPart>& marked);
   void publish_wish();
 
@@ -124,20 +165,24 @@ struct SessionParts {
   std::int64_t technique_since = 0;  // ns, when the technique was chosen
   std::int64_t moved_at = 0;         // ns, when the user moved last; 0: not yet
   interaction::View drawn_view;
-  double aspect = 1.5;         // of the picture
-  bool hand_is_aimed = false;  // by the mouse
+  double view_rests_for = 0.0;  // s
+  interaction::View rested_view;
+  std::vector<WorkspaceMark> workspaces;  // as they are drawn
+  double aspect = 1.5;                    // of the picture
+  bool hand_is_aimed = false;             // by the mouse
   /// The place where the mouse's hand lies aside, m, in its device's frame; none while it is aimed.
   std::optional<base::Vector3> parked_at = base::Vector3(base::Vector3::Zero());
 
   EditedQueue queue;
   DisplayFeed display;
-  devices::SimulatedDevice* mouse_hand;  // null: no pointer is driven by the mouse
+  /// The hand that the mouse drives, always of the last pointer; null: there is none.
+  devices::SimulatedDevice* mouse_hand = nullptr;
   HapticLoop hands;
-  std::vector<HandGrab> grabs;       // of each pointer
-  std::vector<PartGrab> part_grabs;  // likewise
+  std::uint64_t pointers_so_far = 0;
+  std::vector<PointerParts> pointers;  // of each pointer
+  std::vector<ClosingDevice> closing;
   GrabSettings grab_settings;
   std::optional<interaction::Shaping> shaping;           // nothing: objects are dragged
-  std::vector<PointGrab> point_grabs;                    // of each pointer
   std::optional<interaction::MarkedHandle> mouse_marks;  // as the mouse's tool says
   interaction::ShapingPicture handles;                   // as they are drawn
   EffectSymbols effects;
@@ -148,11 +193,9 @@ struct SessionParts {
   bool parts_are_new = false;             // outlines may be others
   std::shared_ptr<TargetMaker> target_maker = std::make_shared<TargetMaker>();
   std::shared_ptr<TechniqueHand> technique;  // null: by touch
-  std::vector<bool> ungrabbed;               // pointers that begin to grab when their button has come up
-  std::vector<bool> lost;                    // the pointer's device, as a person was told last
-  std::vector<std::uint64_t> losses;         // that a person was told of
-  std::vector<std::string> conditions;       // of the pointers' devices, as a person was told last
   realtime::LatestValue<FeltVersion> felt;
+  /// FeltVersion::capped, or later than that, as the first pointer has become another one.
+  std::shared_ptr<const std::vector<haptics::CappedEffect>> capped = nullptr;
   realtime::LatestValue<render::RenderScenePointer> seen;
   std::set<std::string> told;  // of differences from the design, since it was opened
   // The versions whose remarks have been read.

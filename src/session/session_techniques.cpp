@@ -27,7 +27,7 @@ Pose pointing_from_eye(const Pose& eye, const Vector3& place) {
 
 bool SessionParts::is_hand_there(std::size_t pointer) const {
   const PointerView& view = hands.view(pointer);
-  if (mouse_hand && pointer == 0 && !hand_is_aimed) return false;
+  if (is_mouse(pointer) && !hand_is_aimed) return false;
   return view.time != 0 && view.status != devices::DeviceStatus::Lost &&
          view.device_from_stylus.matrix().allFinite();
 }
@@ -35,7 +35,7 @@ bool SessionParts::is_hand_there(std::size_t pointer) const {
 /// The hand's pose with its workspace where the user now is, which the servo gets to softly.
 Pose SessionParts::stage_from_hand(std::size_t pointer) const {
   const Pose hand = user.stage_from_device() * hands.view(pointer).device_from_stylus;
-  if (!mouse_hand || pointer != 0) return hand;
+  if (!is_mouse(pointer)) return hand;
   return pointing_from_eye(user.view().world_from_eye, hand.translation());
 }
 
@@ -108,17 +108,14 @@ base::Result<void> SessionTechniques::set(const std::optional<interaction::Techn
   }
   SessionParts& parts = parts_;
   bool held = parts.technique && parts.technique->holds();
-  for (HandGrab& grab : parts.grabs) {
-    held = held || grab.holds();
-    grab = {};
-  }
-  for (PartGrab& grab : parts.part_grabs) {
-    held = held || grab.holds();
-    grab = {};
+  for (PointerParts& it : parts.pointers) {
+    held = held || it.grab.holds() || it.part_grab.holds();
+    it.grab = {};
+    it.part_grab = {};
+    it.ungrabbed = true;
   }
   parts_.mark_part(std::nullopt);
   if (held) parts.feel_held(false);
-  parts.ungrabbed.assign(parts.ungrabbed.size(), true);
   parts.technique.reset();
   if (technique) parts.technique = std::make_shared<TechniqueHand>(*technique, parts.target_maker);
   parts.technique_since = parts.moved_at;

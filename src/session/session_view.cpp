@@ -53,26 +53,28 @@ void SessionParts::move_user() {
     tell(it.lost ? SessionEvent::Kind::DeviceLost : SessionEvent::Kind::DeviceBack, it.text);
   if (news.home) go_home();
   for (std::size_t i = 0; i < hands.pointers(); ++i) hands.carry(i, user.stage_from_device());
+  follow_view_scale(dt);
   if (!hand_is_aimed) park();
 }
 
 void SessionParts::aim(const base::Vector3& position) {
   if (!mouse_hand) return;
-  hand_is_aimed = true;
+  if (!std::exchange(hand_is_aimed, true)) look_is_new = true;
   // A hand that lies aside is taken up where it lies.
   if (parked_at) mouse_hand->put(*std::exchange(parked_at, std::nullopt));
-  mouse_hand->set_target(hands.stage_from_device(0).inverse() * position);
+  mouse_hand->set_target(hands.stage_from_device(*mouse()).inverse() * position);
 }
 
 void SessionParts::put(const base::Vector3& position) {
   aim(position);
-  if (mouse_hand) mouse_hand->put(hands.stage_from_device(0).inverse() * position);
+  if (mouse_hand) mouse_hand->put(hands.stage_from_device(*mouse()).inverse() * position);
 }
 
 /// Puts the hand at the eye instead of leading it there: something may stand in the way.
 void SessionParts::park() {
   if (!mouse_hand) return;
-  const base::Vector3 eye = hands.stage_from_device(0).inverse() * user.view().world_from_eye.translation();
+  const base::Vector3 eye =
+      hands.stage_from_device(*mouse()).inverse() * user.view().world_from_eye.translation();
   if (parked_at == eye) return;
   parked_at = eye;
   mouse_hand->set_target(eye);
@@ -98,8 +100,8 @@ void SessionParts::renew_handles() {
   if (shaping) {
     std::vector<interaction::MarkedHandle> marked;
     if (mouse_marks) marked.push_back(*mouse_marks);
-    for (const PointGrab& it : point_grabs) {
-      if (it.marked()) marked.push_back(*it.marked());
+    for (const PointerParts& it : pointers) {
+      if (it.point_grab.marked()) marked.push_back(*it.point_grab.marked());
     }
     const auto objects = interaction::draggable_objects(world, selection, kMostHandledObjects);
     now = shaping->picture(world, objects, marked);
@@ -124,6 +126,23 @@ void SessionParts::renew_parts() {
   if (had_parts || !part_outlines.empty()) look_is_new = true;
 }
 
+/// Renews the workspaces that are shown, at their present places.
+void SessionParts::renew_workspaces() {
+  const double now = session_seconds();
+  std::vector<WorkspaceMark> shown;
+  for (std::size_t i = 0; i < hands.pointers(); ++i) {
+    devices::MappedDevice* const device = hands.mapped(i);
+    if (!device || hands.view(i).status == devices::DeviceStatus::Lost) continue;
+    const devices::ClutchState& clutch = device->clutch();
+    if (!pointers[i].shows_workspace && !clutch.held && now > pointers[i].seen_until) continue;
+    shown.push_back({hands.stage_from_device(i) * clutch.shift, hands.stage_from_device(i).linear(),
+                     device->info().workspace_radius});
+  }
+  if (shown == workspaces) return;
+  workspaces = std::move(shown);
+  look_is_new = true;
+}
+
 void SessionParts::mark_part(const std::optional<MarkedPart>& marked) {
   const auto& now = marked_part;
   const bool same = now.has_value() == marked.has_value() &&
@@ -138,6 +157,7 @@ void SessionParts::publish_wish() {
   renew_handles();
   renew_symbols();
   renew_parts();
+  renew_workspaces();
   const interaction::View& now = user.drawn_view();
   if (now.world_from_eye.matrix() != drawn_view.world_from_eye.matrix() || now.field != drawn_view.field ||
       now.distance != drawn_view.distance)
@@ -149,6 +169,9 @@ void SessionParts::publish_wish() {
   wish.look.selected = outlined;
   add_marks(wish.look.overlay, symbols);
   add_marks(wish.look.overlay, part_outlines.overlay(marked_part));
+  if (mouse_hand && !hand_is_aimed) wish.aside = mouse();
+  add_marks(wish.look.overlay, workspace_marks(workspaces, look.workspace));
+  wish.in_sight = workspace_ends(workspaces, now);
   if (shaping) add_handles(handles, wish.look.selection_width, wish.look.overlay);
   wish.miniature = marks ? miniature : std::nullopt;
   if (marks) add_marks(wish.look.overlay, *marks);

@@ -17,6 +17,7 @@ TEST(MappingFile, WhatIsWrittenIsRead) {
   mapping.workspace_radius = 0.07;
   mapping.max_force = 2.0;
   mapping.clutch_button = 2;
+  mapping.scale_follows_view = true;
   const auto read = parse_mapping(mapping_text(mapping, "test"), "device.toml");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_TRUE(read->centre.isApprox(mapping.centre));
@@ -25,6 +26,7 @@ TEST(MappingFile, WhatIsWrittenIsRead) {
   EXPECT_EQ(read->workspace_radius, 0.07);
   EXPECT_EQ(read->max_force, 2.0);
   EXPECT_EQ(read->clutch_button, 2);
+  EXPECT_TRUE(read->scale_follows_view);
 }
 
 TEST(MappingFile, WhatIsLeftOutChangesNothing) {
@@ -44,6 +46,7 @@ TEST(MappingFile, ErrorsNameTheLine) {
             "device.toml:2:1: a device has no key \"scael\"; did you mean 'scale'?");
   EXPECT_NE(fails("scale = 0").find("device.toml:1:9: scale must be a number from 0.01 to 100"),
             std::string::npos);
+  EXPECT_NE(fails("scale_follows_view = 1").find("true or false"), std::string::npos);
   EXPECT_NE(fails("scale = nan").find("scale must be"), std::string::npos);
   EXPECT_NE(fails("centre_m = [1, 2]").find("three numbers"), std::string::npos);
   EXPECT_NE(fails("axes = \"x,y,-z\"").find("mirror"), std::string::npos);

@@ -25,9 +25,9 @@ void add_device_options(CLI::App& app, DeviceChoice& choice) {
 base::Result<session::SessionSettings> session_settings(const DeviceChoice& choice) {
   session::SessionSettings settings;
   for (const std::string& name : choice.pointers) {
-    auto device = devices::open_device(name);
+    auto device = session::open_connection(name);
     if (!device) return base::fail("--device: " + device.error().message);
-    settings.pointers.push_back(std::move(*device));
+    settings.connections.push_back(std::move(*device));
   }
   if (!choice.head.empty()) {
     auto head = devices::open_head(choice.head);

@@ -23,8 +23,9 @@ struct DeviceChoice {
 /// Adds the options --device, --head and --navigation.
 void add_device_options(CLI::App& app, DeviceChoice& choice);
 
-/// The settings of a session with these devices, which are opened; that may take seconds. A 3D mouse may be
-/// plugged in at any time. The error names the option and says what is missing.
+/// The settings of a session with these devices, which are opened; that may take seconds. The mouse's hand is
+/// beside them, and a 3D mouse may be plugged in at any time. The error names the option and says what is
+/// missing.
 base::Result<session::SessionSettings> session_settings(const DeviceChoice& choice);
 
 }  // namespace icome::apps

@@ -277,11 +277,17 @@ void tell_of_forces(const study::Study& study) {
         "push, and which nobody feels. Do not take such data for a study of force feedback.");
 }
 
+/// Leaves the mouse's hand out beside devices: what a person does is done with these alone.
+void use_devices_alone(session::SessionSettings& settings) {
+  for (session::PointerConnection& it : settings.connections)
+    settings.pointers.push_back(std::make_unique<devices::MappedDevice>(std::move(it.device), it.mapping));
+  settings.connections.clear();
+}
+
 /// The devices of a session, as they name themselves: what the person's data were taken with.
 std::string names_of(const session::SessionSettings& settings) {
   std::string names;
-  const auto add = [&names](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
-  for (const auto& pointer : settings.pointers) add(pointer->info().name);
+  for (const auto& it : settings.pointers) names += (names.empty() ? "" : ", ") + it->info().name;
   return names.empty() ? "mouse" : names;
 }
 
@@ -299,6 +305,7 @@ int run_person(int argc, char** argv, const StudyOptions& options, const OpenedS
   catch_interrupts();
   auto settings = session_settings(options.devices);
   if (!settings) return end_without_result(settings.error(), status);
+  use_devices_alone(*settings);
   const std::string devices = names_of(*settings);
   ui::StudyWindowOptions window;
   window.full_screen = !options.in_window;

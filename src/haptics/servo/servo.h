@@ -88,6 +88,9 @@ class Servo {
   /// comes and goes as fast as the limiter lets it. Any thread. Real-time safe.
   void give_forces(bool given) { gives_forces_.store(given, std::memory_order_relaxed); }
 
+  /// Lets forces grow from none, as for a device that has just come. Before the first tick.
+  void begin_softly() { limiter_.restart(); }
+
   /// One turn of the servo loop, `dt` seconds after the last. Real-time safe.
   const TickReport& tick(double dt);
 

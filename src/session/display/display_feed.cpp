@@ -48,7 +48,10 @@ bool same_picture(const DisplayWish& a, const DisplayWish& b) {
 
 DisplayFeed::DisplayFeed(std::size_t pointers)
     : scene_(std::make_shared<const render::RenderScene>()), recorder_(kNominalPeriod) {
-  for (std::size_t i = 0; i < pointers; ++i) pointers_.push_back(std::make_unique<PointerBox>());
+  for (std::size_t i = 0; i < pointers; ++i) {
+    pointers_.push_back(std::make_unique<PointerBox>());
+    pointers_.back()->number = i;
+  }
 }
 
 bool DisplayFeed::is_due() {
@@ -61,7 +64,7 @@ void DisplayFeed::take_news() {
   take_wish();
   for (const auto& box : pointers_) {
     box->newest.update();
-    if (has_moved(box->drawn, box->newest.read())) has_moved_ = true;
+    if (has_moved(*box)) has_moved_ = true;
   }
 }
 
@@ -109,15 +112,17 @@ base::Result<void> DisplayFeed::draw(render::SceneRenderer& renderer, const rend
   return drawn;
 }
 
-bool DisplayFeed::is_shown(const PointerView& pointer) const {
-  return shown_.pointers && pointer.time != 0 && pointer.status != devices::DeviceStatus::Lost &&
-         pointer.tip.allFinite() && pointer.scp.allFinite() && pointer.force.allFinite();
+bool DisplayFeed::is_shown(const PointerBox& box, const PointerView& pointer) const {
+  return shown_.pointers && shown_.aside != box.number && pointer.time != 0 &&
+         pointer.status != devices::DeviceStatus::Lost && pointer.tip.allFinite() &&
+         pointer.scp.allFinite() && pointer.force.allFinite();
 }
 
 /// Has the pointer moved by so much that it can be seen?
-bool DisplayFeed::has_moved(const PointerView& before, const PointerView& now) const {
-  if (is_shown(before) != is_shown(now)) return true;
-  if (!is_shown(now)) return false;
+bool DisplayFeed::has_moved(const PointerBox& box) const {
+  const PointerView &before = box.drawn, &now = box.newest.read();
+  if (is_shown(box, before) != is_shown(box, now)) return true;
+  if (!is_shown(box, now)) return false;
   if (before.touching != now.touching || before.spared != now.spared) return true;
   const double distance = (now.tip - shown_.view.world_from_eye.translation()).norm();
   const double pixel = 2.0 * distance * std::tan(0.5 * shown_.view.field) /
@@ -143,8 +148,9 @@ render::Camera DisplayFeed::camera(double aspect) const {
       bounds.extend(world_from_eye * Vector3(0.0, 0.0, -std::exp2(step)));
   };
   for (const auto& box : pointers_) {
-    if (is_shown(box->newest.read())) reach(box->newest.read().tip);
+    if (is_shown(*box, box->newest.read())) reach(box->newest.read().tip);
   }
+  for (const Vector3& place : shown_.in_sight) reach(place);
   const base::Bounds scene = scene_.read()->bounds();
   for (int corner = 0; shown_.miniature && !scene.isEmpty() && corner < 8; ++corner)
     reach(*shown_.miniature * scene.corner(base::Bounds::CornerType(corner)));
@@ -162,7 +168,7 @@ void DisplayFeed::add_markers(render::SceneOverlay& overlay) const {
   for (const auto& box : pointers_) {
     const PointerView& pointer = box->newest.read();
     const double radius = shown_.marker_size * (pointer.tip - eye).norm();
-    if (!is_shown(pointer) || !(radius > 0.0)) continue;
+    if (!is_shown(*box, pointer) || !(radius > 0.0)) continue;
     if (pointer.spared && shown_.spared_sign)
       overlay.panels.push_back(
           {.picture = shown_.spared_sign, .at = pointer.tip, .anchor = {0.0, 1.0}, .shift = kBesideTip});

@@ -22,6 +22,11 @@ struct DisplayWish {
   std::optional<base::Affine3> miniature = {};
   /// The sign beside a hand whose force is held down, as the motors would become too warm; null: none.
   std::shared_ptr<const charts::Image> spared_sign = nullptr;
+  /// The pointer that lies aside, which is not shown; none: all are shown.
+  std::optional<std::size_t> aside = {};
+  charts::Colour workspace = {0.16, 0.47, 0.90, 0.6};  // of the lines of a device's workspace
+  /// Places that are to be seen besides the scene, wherever they lie in depth.
+  std::vector<base::Vector3> in_sight = {};
   double marker_size = 0.004;  // share of the distance to the eye: radius of the tip's ball
 };
 
@@ -29,6 +34,7 @@ struct DisplayWish {
 /// anybody. Knows no window; any thread with an OpenGL context draws with it (a window's, an off-screen one).
 class DisplayFeed {
  public:
+  /// Shows up to that many pointers, those of which something is published.
   explicit DisplayFeed(std::size_t pointers);
 
   // The main thread.
@@ -55,14 +61,15 @@ class DisplayFeed {
  private:
   struct PointerBox {
     realtime::LatestValue<PointerView> newest;
-    PointerView drawn;  // in the last frame
+    PointerView drawn;       // in the last frame
+    std::size_t number = 0;  // of the pointer
   };
 
   void take_news();
   void take_wish();
   void note_target(const render::SceneRenderer& renderer, const render::SceneTarget& target);
-  bool has_moved(const PointerView& before, const PointerView& now) const;
-  bool is_shown(const PointerView& pointer) const;
+  bool has_moved(const PointerBox& box) const;
+  bool is_shown(const PointerBox& box, const PointerView& pointer) const;
   render::Camera camera(double aspect) const;
   void add_markers(render::SceneOverlay& overlay) const;
 

@@ -13,13 +13,12 @@ constexpr double kWorkShare = 3.0;
 
 }  // namespace
 
-HapticFollower::HapticFollower(const HapticRepresentationSettings& settings,
-                               std::vector<haptics::Servo*> servos,
+HapticFollower::HapticFollower(const HapticRepresentationSettings& settings, FeltServos& servos,
                                realtime::LatestValue<FeltVersion>& newest)
     : felt_(settings),
       clock_(settings.clock),
       ahead_(settings.glide_seconds),
-      servos_(std::move(servos)),
+      servos_(servos),
       newest_(newest) {}
 
 void HapticFollower::open(const world::World& world, world::SceneId shown) {
@@ -80,12 +79,11 @@ void HapticFollower::look_for_remarks(const world::World& world) {
 void HapticFollower::publish() {
   if (felt_.effects() != published_effects_) {
     published_effects_ = felt_.effects();
-    for (haptics::Servo* servo : servos_) servo->publish_effects(published_effects_);
+    servos_.publish_effects(published_effects_);
   }
   FeltVersion version{felt_.scene(), felt_.names(), published_.capped, remarks_};
-  if (version.scene != published_.scene)
-    for (haptics::Servo* servo : servos_) servo->publish(version.scene);
-  auto capped = servos_.empty() ? std::vector<haptics::CappedEffect>() : servos_.front()->capped_effects();
+  if (version.scene != published_.scene) servos_.publish(version.scene);
+  auto capped = servos_.capped_effects();
   if (!version.capped || *version.capped != capped)
     version.capped = std::make_shared<const std::vector<haptics::CappedEffect>>(std::move(capped));
   if (version.scene == published_.scene && version.names == published_.names &&

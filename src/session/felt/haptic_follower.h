@@ -7,6 +7,7 @@
 
 #include "haptics/servo/servo.h"
 #include "realtime/latest_value.h"
+#include "session/felt/felt_servos.h"
 #include "session/felt/haptic_representation.h"
 #include "session/follower.h"
 #include "session/playback.h"
@@ -28,7 +29,7 @@ struct FeltVersion {
 class HapticFollower final : public Representation {
  public:
   /// The servos and the box outlive this; it alone publishes to them.
-  HapticFollower(const HapticRepresentationSettings& settings, std::vector<haptics::Servo*> servos,
+  HapticFollower(const HapticRepresentationSettings& settings, FeltServos& servos,
                  realtime::LatestValue<FeltVersion>& newest);
 
   void open(const world::World& world, world::SceneId shown) override;
@@ -49,7 +50,7 @@ class HapticFollower final : public Representation {
   Playback playback_ = {};
   double played_since_ = 0.0;  // s on the clock
   double due_ = 0.0;           // s on the clock: when moving things are to be felt anew
-  std::vector<haptics::Servo*> servos_;
+  FeltServos& servos_;
   realtime::LatestValue<FeltVersion>& newest_;
   FeltVersion published_ = {};
   std::vector<haptics::PlacedEffect> published_effects_ = {};

@@ -46,7 +46,7 @@ void apply_theme(QApplication& application, Theme theme);
 /// Colours for the scene that suit the theme: the background at the top and at the bottom, the outline of
 /// selected objects, and the lines of the ground's grid.
 struct SceneColours {
-  charts::Colour above, below, selection, grid;
+  charts::Colour above, below, selection, grid, workspace;
 };
 SceneColours scene_colours();
 

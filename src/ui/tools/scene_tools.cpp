@@ -237,7 +237,7 @@ void SceneTools::look_for_hovered() {
   const bool sees_parts = looks && tool_ == Tool::Select;
   if (part_tool_.hover(sees_parts ? mouse_ : std::nullopt) || !looks) return;
   if (tool_ == Tool::Touch) {
-    if (session_.hands().pointers() > 0) hovered_ = session_.hands().touched(0);
+    hovered_ = session_.hands().touched(session_.hands().mouse().value_or(0));
   } else if (const auto picked = session_.stage().pick_seen(mouse_->ray(session_.view().now()))) {
     hovered_ = picked->object;
   }

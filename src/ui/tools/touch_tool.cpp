@@ -115,7 +115,9 @@ void TouchTool::tick() {
   interaction::MouseHand::Input input;
   input.ray = input_.ray(view);
   input.distance = view.distance;
-  if (session_.hands().pointers() > 0) input.hand = session_.hands().pointer(0).scp;
+  const auto mouse = session_.hands().mouse();
+  if (!mouse) return;
+  input.hand = session_.hands().pointer(*mouse).scp;
   input.view_width = 2.0 * std::tan(0.5 * view.field) * std::max(1.0, input_.aspect());
   if (const auto picked = session_.stage().pick(input.ray)) input.picked = picked->place;
   input.pressure = pressure_;

@@ -31,13 +31,12 @@ int run_desktop(int argc, char** argv, const DesktopOptions& options, session::S
   const Theme theme = chosen_theme(options, kept);
   apply_theme(*application, theme);
   if (settings.autosave_folder.empty()) settings.autosave_folder = session::default_autosave_folder();
-  const bool hand_in_sight = !settings.pointers.empty();
   auto session = session::Session::create(std::move(settings));
   if (!session) {
     std::fprintf(stderr, "icome: %s\n", base::terminal_text(session.error().message).c_str());
     return 1;
   }
-  MainWindow window(**session, kept, {.theme = theme, .hand_in_sight = hand_in_sight});
+  MainWindow window(**session, kept, {.theme = theme});
   window.show();
   window.begin(options.design);
   return QApplication::exec();

@@ -96,7 +96,10 @@ void MainWindow::make_menus() {
   model->addSeparator();
   pictures_.fill(*model);
   moves_.fill(*model->addMenu("&Moving"), *this);
-  views_.fill(*menuBar()->addMenu("&View"));
+  QMenu* view = menuBar()->addMenu("&View");
+  views_.fill(*view);
+  view->addSeparator();
+  add_action(*view, "view.devices", "&Devices\u2026", {}, [this] { show_devices(); });
   make_tool_menu(*menuBar()->addMenu("&Tools"));
   QMenu* window = menuBar()->addMenu("&Window");
   for (QDockWidget* dock : findChildren<QDockWidget*>()) window->addAction(dock->toggleViewAction());
@@ -157,6 +160,12 @@ void MainWindow::ask(const interaction::Operation& operation) {
   operation_dock_->show();
   operation_dock_->raise();
   go_to(*operation_->first_field());
+}
+
+void MainWindow::show_devices() {
+  devices_dock_->show();
+  devices_dock_->raise();
+  if (QWidget* const stop = first_stop(*devices_)) go_to(*stop);
 }
 
 void MainWindow::stop_asking() {
@@ -248,7 +257,8 @@ void MainWindow::show_scene_menu(QPointF at) {
 }
 
 void MainWindow::next_part() {
-  const std::array<QWidget*, 7> parts{scene_, banner_, shaping_, tree_, properties_, operation_, hand_};
+  const std::array<QWidget*, 8> parts{scene_,      banner_,    shaping_, tree_,
+                                      properties_, operation_, devices_, hand_};
   const QWidget* const focus = QApplication::focusWidget();
   auto found = std::find_if(parts.begin(), parts.end(),
                             [&](const QWidget* it) { return focus && it->isAncestorOf(focus); });

@@ -21,7 +21,7 @@
 namespace icome::ui {
 namespace {
 
-constexpr int kLayout = 2;  // counts up when docks and bars change, so that old layouts are not restored
+constexpr int kLayout = 3;  // counts up when docks and bars change, so that old layouts are not restored
 
 bool same_file(const std::filesystem::path& one, const std::filesystem::path& other) {
   std::error_code error;
@@ -144,6 +144,10 @@ void MainWindow::make_docks() {
     if (operation_dock_->isHidden()) operation_->leave();
   });
   tabifyDockWidget(properties, operation_dock_);
+  devices_ = new DevicePanel(session_, options_.devices, this);
+  devices_dock_ = make_dock(this, "dock.devices", "Devices", devices_, Qt::RightDockWidgetArea);
+  tabifyDockWidget(properties, devices_dock_);
+  devices_dock_->hide();
   resizeDocks({world, properties}, {60 * kGrid, 80 * kGrid}, Qt::Horizontal);
 }
 
@@ -289,7 +293,7 @@ void MainWindow::show_look() {
   wish.look.grid = views_.grid();
   wish.look.grid_colour = its.grid;
   wish.look.passes = 16;
-  wish.pointers = options_.hand_in_sight || tools_.tool() == Tool::Touch;
+  wish.workspace = its.workspace;
   wish.spared_sign = spared_sign_.picture("Force held down to spare the motors", pixel_ratio_);
   if (labelled_) {
     if (auto panel = label_.panel(session_, *labelled_, pixel_ratio_))
@@ -301,7 +305,8 @@ void MainWindow::show_look() {
 /// Ends what the mouse is doing, and commits what is being typed. False: the text was refused.
 bool MainWindow::finish_work() {
   tools_.finish();
-  return shaping_->finish_typing() && properties_->finish_typing() && tree_->finish_typing();
+  return shaping_->finish_typing() && properties_->finish_typing() && tree_->finish_typing() &&
+         devices_->finish_typing();
 }
 
 void MainWindow::choose_theme(Theme theme) {

@@ -12,6 +12,7 @@
 #include "ui/actions/picture_actions.h"
 #include "ui/actions/technique_actions.h"
 #include "ui/actions/view_actions.h"
+#include "ui/devices/device_panel.h"
 #include "ui/forms/operation_panel.h"
 #include "ui/look/theme.h"
 #include "ui/panels/property_panel.h"
@@ -33,7 +34,7 @@ class MainWindow final : public QMainWindow {
  public:
   struct Options {
     Theme theme = Theme::System;
-    bool hand_in_sight = false;  // there is a pointer device: its hand is always shown
+    DeviceWays devices = {};
   };
   MainWindow(session::Session& session, QSettings& settings, const Options& options);
   ~MainWindow() override;
@@ -74,6 +75,7 @@ class MainWindow final : public QMainWindow {
   void next_part();
   void ask(const interaction::Operation& operation);
   void stop_asking();
+  void show_devices();
   void find_command();
   bool offer_drop(QDropEvent& drop, bool over_scene);
   void drop_picture(const std::filesystem::path& file, const SceneInput& input);
@@ -97,6 +99,8 @@ class MainWindow final : public QMainWindow {
   PropertyPanel* properties_ = nullptr;
   OperationPanel* operation_ = nullptr;
   QDockWidget* operation_dock_ = nullptr;  // hidden while there is no operation in it
+  DevicePanel* devices_ = nullptr;
+  QDockWidget* devices_dock_ = nullptr;
   QWidget* hand_ = nullptr;
   QLabel* hint_ = nullptr;
   QLabel* technique_ = nullptr;  // the technique in use; hidden for touch

@@ -241,8 +241,10 @@ void StatusStrip::Parts::look_at_device() {
   if (session.hands().pointers() == 0) return set(*device, "No pointer device");
   const session::PointerView& view = session.hands().pointer(0);
   const QString name = one_line(session.hands().pointer_info(0).name);
+  // The mouse beside a device is not worth a word.
+  const std::size_t others = session.hands().mouse().value_or(session.hands().pointers()) - 1;
   const QString more =
-      session.hands().pointers() > 1 ? QString(" + %1").arg(session.hands().pointers() - 1) : QString();
+      !session.hands().is_mouse_driven() && others > 0 ? QString(" + %1").arg(others) : QString();
   set(*device, device->fontMetrics().elidedText(name, Qt::ElideRight, 36 * kGrid) + more);
   dot->show(view.status);
   const bool spared = view.spared && view.status == DeviceStatus::Ok;

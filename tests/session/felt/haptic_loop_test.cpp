@@ -39,7 +39,7 @@ TEST(HapticLoop, TellsWhereThePointersAreAndWhatTheyFeel) {
   DisplayFeed display(2);
   HapticLoop loop(std::move(devices), {}, display);
   EXPECT_EQ(loop.view(0).time, 0);
-  for (haptics::Servo* servo : loop.servos()) servo->publish(box_scene());
+  loop.felt().publish(box_scene());
   ASSERT_TRUE(loop.start(false));
   first->set_target({0.0, 0.0, 0.04});
   wait_until([&] {
@@ -60,7 +60,7 @@ TEST(HapticLoop, SamplesTheForceSome200TimesASecond) {
   auto* hand = static_cast<devices::SimulatedDevice*>(devices[0].get());
   DisplayFeed display(1);
   HapticLoop loop(std::move(devices), {}, display);
-  loop.servos()[0]->publish(box_scene());
+  loop.felt().publish(box_scene());
   ASSERT_TRUE(loop.start(false));
   hand->set_target({0.0, 0.0, 0.04});
   std::vector<ForceSample> samples;
@@ -132,7 +132,6 @@ TEST(HapticLoop, TakesNoMemoryAndNoLocksWhileAllOthersAreBusy) {
   auto* device = static_cast<GuardedDevice*>(devices[0].get());
   DisplayFeed display(1);
   HapticLoop loop(std::move(devices), {}, display);
-  haptics::Servo* servo = loop.servos()[0];
   ASSERT_TRUE(loop.start(false));
   // Scenes come and go, main looks, the display looks, the workspace is carried about.
   std::atomic<bool> stop = false;
@@ -141,7 +140,7 @@ TEST(HapticLoop, TakesNoMemoryAndNoLocksWhileAllOthersAreBusy) {
   });
   base::Pose place = base::Pose::Identity();
   wait_until([&] {
-    servo->publish(box_scene());
+    loop.felt().publish(box_scene());
     place.translation().x() = place.translation().x() > 0.01 ? 0.0 : place.translation().x() + 1e-3;
     loop.carry(0, place);
     loop.update();
