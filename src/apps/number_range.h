@@ -1,9 +1,11 @@
 #pragma once
-#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
 
 namespace icome::apps {
 
-/// Checks that an option's value is a number from `least` to `most`; unlike CLI::Range it refuses "nan".
-CLI::Validator number_range(double least, double most);
+/// A check of CLI11 that an option's value is a number from `least` to `most`; unlike CLI::Range it refuses
+/// "nan". It gives what is wrong, or nothing.
+std::function<std::string(const std::string&)> number_range(double least, double most);
 
 }  // namespace icome::apps

@@ -29,6 +29,13 @@ std::string trouble_with(const char* file) {
   return is_absent ? std::string() : std::string(said);
 }
 
+/// Would opening it wait for somebody, or never end?
+bool is_pipe_or_device(const char* name) {
+  std::error_code error;
+  const auto status = std::filesystem::status(name, error);
+  return std::filesystem::is_other(status);
+}
+
 }  // namespace
 
 base::Result<SharedLibrary> SharedLibrary::open(const LibrarySought& sought) {
@@ -36,11 +43,9 @@ base::Result<SharedLibrary> SharedLibrary::open(const LibrarySought& sought) {
   const bool is_chosen = chosen != nullptr && *chosen != '\0';
   const std::span<const char* const> names = is_chosen ? std::span(&chosen, 1) : sought.file_names;
   std::string trouble;
-  std::error_code error;
   for (const char* name : names) {
-    // What is no file, such as a pipe, would be waited for.
-    if (is_chosen && std::strchr(name, '/') != nullptr && !std::filesystem::is_regular_file(name, error)) {
-      trouble = "it is no file";
+    if (is_chosen && is_pipe_or_device(name)) {
+      trouble = "it is a pipe or a device";
       continue;
     }
     if (void* handle = dlopen(name, kLoading)) return SharedLibrary(handle, name, sought.what);

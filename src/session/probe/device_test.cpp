@@ -76,8 +76,8 @@ class Probe {
  private:
   /// Has the device been away for so long that it hardly comes back?
   bool is_away() const {
-    constexpr double kPatience = 3.0;  // s
-    return double(lost_in_a_row_.load(std::memory_order_relaxed)) > kPatience * settings_.rate_hz;
+    constexpr double kLongestLoss = 3.0;  // s
+    return double(lost_in_a_row_.load(std::memory_order_relaxed)) > kLongestLoss * settings_.rate_hz;
   }
   bool tick(const realtime::TickInfo& info) {
     const std::size_t index = done_.load(std::memory_order_relaxed);

@@ -279,7 +279,9 @@ TEST(VrpnServer, APlaceThatCannotBeListenedAtIsToldWithWhatToDo) {
   EXPECT_NE(told("192.0.2.1", 0).find("this computer has no such address"), std::string::npos);
   EXPECT_NE(told("::1", 0).find("IPv6"), std::string::npos);
   EXPECT_NE(told("no.such.computer.invalid", 0).find("no computer is known"), std::string::npos);
-  if (geteuid() != 0) EXPECT_NE(told("127.0.0.1", 80).find("below 1024"), std::string::npos);
+  if (geteuid() != 0) {
+    EXPECT_NE(told("127.0.0.1", 80).find("below 1024"), std::string::npos);
+  }
 }
 
 /// The processor time that this program has used, s.
