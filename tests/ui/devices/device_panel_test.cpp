@@ -220,7 +220,7 @@ TEST_F(DevicePanelTest, RefusesAScaleThatNoDeviceHas) {
   QTest::keyClicks(scale, "0");
   QTest::keyClick(scale, Qt::Key_Return);
   EXPECT_TRUE(says("The scale must be from 0.01 to 100."));
-  EXPECT_EQ(session().hands().use(0).mapping->scale, 1.0);
+  EXPECT_EQ(session().hands().use(0).mapping->scale, std::nullopt);
   button("Save")->click();
   EXPECT_FALSE(says("Kept in"));
 }
