@@ -3,6 +3,7 @@ import json
 import os
 import pathlib
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -257,6 +258,31 @@ class FakeServiceTest(ProgramTest):
         report = self.report("sphere:0.03", "--device", "haply", "--seconds", "1.5")
         self.assertGreater(report["touch_fraction"], 0.1)
         self.assertLessEqual(report["max_force_n"], 5.0 * 3 ** 0.5)
+
+    def test_an_answer_without_end_is_left(self):
+        """Whatever it is asked, this one goes on for ever."""
+        def flood(connection):
+            with connection:
+                try:
+                    connection.recv(1000)
+                    connection.sendall(b"HTTP/1.1 200 OK\r\nContent-Length: 1099511627776\r\n\r\n")
+                    while True:
+                        connection.sendall(bytes(100_000))
+                except OSError:
+                    pass  # the other side has had enough
+
+        def serve():
+            try:
+                while True:
+                    threading.Thread(target=flood, args=(listener.accept()[0],), daemon=True).start()
+            except OSError:
+                pass  # the test is over
+
+        listener = socket.create_server(("127.0.0.1", 0))
+        self.addCleanup(listener.close)
+        threading.Thread(target=serve, daemon=True).start()
+        os.environ["ICOME_HAPLY"] = "127.0.0.1:" + str(listener.getsockname()[1])
+        self.fails("devices", "test", "haply", code=1, saying="Inverse Service")
 
     def test_without_it_people_are_told_what_to_start(self):
         os.environ["ICOME_HAPLY"] = "127.0.0.1:9"

@@ -5,7 +5,7 @@
 #include "base/result.h"
 #include "session/session.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): a library's
 class App;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kButtons = 8;  // offered as a clutch
 
-void say(QLabel& label, const QString& text) {
+void show_text(QLabel& label, const QString& text) {
   if (label.text() != text) label.setText(text);
 }
 
@@ -150,11 +150,11 @@ void PointerForm::refresh() {
   const session::PointerView& view = session_.hands().pointer(*index);
   const session::PointerUse use = session_.hands().use(*index);
   const bool there = view.time != 0 && view.status != devices::DeviceStatus::Lost;
-  say(*condition_, condition_words(view, use));
+  show_text(*condition_, condition_words(view, use));
   const double most = session_.hands().pointer_info(*index).max_force;
-  say(*force_, there ? QString("%1 of %2 N").arg(view.force.norm(), 0, 'f', 2).arg(most, 0, 'f', 1)
-                     : QString("\u2013"));
-  say(*place_, there ? place_words(view) : QString("\u2013"));
+  show_text(*force_, there ? QString("%1 of %2 N").arg(view.force.norm(), 0, 'f', 2).arg(most, 0, 'f', 1)
+                           : QString("\u2013"));
+  show_text(*place_, there ? place_words(view) : QString("\u2013"));
   if (use.mapping) refresh_mapping(use);
 }
 
@@ -167,8 +167,8 @@ void PointerForm::refresh_mapping(const session::PointerUse& use) {
   const int button = use.mapping->clutch_button;
   if (clutch_->findData(button) < 0) clutch_->addItem(QString("button %1").arg(button), button);
   if (!clutch_->view()->isVisible()) clutch_->setCurrentIndex(clutch_->findData(button));
-  say(*reach_, QString("%1 mm").arg(
-                   number_text(use.mapping->scale.value_or(1.0) * use.own_radius, Quantity::Length, 0)));
+  show_text(*reach_, QString("%1 mm").arg(number_text(use.mapping->scale.value_or(1.0) * use.own_radius,
+                                                      Quantity::Length, 0)));
   shown_->setChecked(use.shows_workspace);
 }
 
@@ -184,7 +184,7 @@ base::Result<void> PointerForm::change(const std::function<void(devices::DeviceM
 
 void PointerForm::try_change(const std::function<void(devices::DeviceMapping&)>& edit) {
   if (const auto done = change(edit); !done)
-    section_->note().say(QString::fromStdString(done.error().message));
+    section_->note().show_text(QString::fromStdString(done.error().message));
   refresh();
 }
 
@@ -197,7 +197,7 @@ void PointerForm::save() {
   if (!index || !finish_typing()) return;
   const session::PointerUse use = session_.hands().use(*index);
   const auto done = devices::write_mapping(use.address, *use.mapping, "icome, the window's Devices");
-  if (!done) return section_->note().say(QString::fromStdString(done.error().message));
+  if (!done) return section_->note().show_text(QString::fromStdString(done.error().message));
   section_->note().remark("Kept in " + QString::fromStdString(devices::mapping_path(use.address).string()));
 }
 

@@ -16,6 +16,10 @@
 #include <boost/beast/websocket.hpp>
 #include <cerrno>
 #include <cstring>
+#include <functional>
+#include <limits>
+#include <new>
+#include <stdexcept>
 #include <utility>
 
 #include "base/clock.h"
@@ -50,6 +54,9 @@ class TimedSocket {
 
   executor_type get_executor() const noexcept { return context_.get_executor(); }
   void set_deadline(std::int64_t deadline) { deadline_ = deadline; }
+  /// Reads no more than so many bytes from now on: an answer that never ends would never be late.
+  void allow(std::size_t bytes) { allowed_ = bytes; }
+  void allow_all() { allowed_ = kAll; }
   void stop_by(const std::atomic<bool>* stop) { stop_ = stop; }
   void while_waiting(std::function<void(bool)> call) { while_waiting_ = std::move(call); }
   bool readable() const {
@@ -82,6 +89,8 @@ class TimedSocket {
     if (count == 0) return error = {}, 0;
     const std::size_t got = transfer(POLLIN, error, [&] { return recvmsg(socket_, &message, MSG_DONTWAIT); });
     if (!error && got == 0) error = asio::error::eof;
+    if (got > allowed_) return error = asio::error::message_size, 0;
+    if (allowed_ != kAll) allowed_ -= got;
     return got;
   }
   template <typename Buffers>
@@ -107,6 +116,7 @@ class TimedSocket {
 
  private:
   static constexpr std::size_t kMostParts = 8;
+  static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
   template <typename Buffers>
   static std::pair<std::array<iovec, kMostParts>, std::size_t> parts_of(const Buffers& buffers) {
@@ -181,6 +191,7 @@ class TimedSocket {
   const std::atomic<bool>* stop_;            // may be null
   std::function<void(bool)> while_waiting_;  // may be empty
   std::int64_t deadline_ = 0;                // ns
+  std::size_t allowed_ = kAll;               // bytes
   int socket_ = -1;
 };
 
@@ -215,7 +226,15 @@ class WebSocket::Connection {
     std::string failed = socket().connect(address);
     if (!failed.empty()) return failed;
     SocketError error;
-    stream_.handshake(shown_address(address), "/", error);
+    socket().allow(kMostOfAnswer);
+    try {
+      stream_.handshake(shown_address(address), "/", error);
+    } catch (const std::bad_alloc&) {
+      return "it answers at too great a length";  // memory for it is taken as soon as it says how long it is
+    } catch (const std::length_error&) {
+      return "it answers at too great a length";
+    }
+    socket().allow_all();
     return error ? trouble(error) : std::string();
   }
   bool send(std::string_view text, std::int64_t deadline) {
@@ -299,9 +318,16 @@ base::Result<std::string> get_by_http(const ServiceAddress& address, const std::
   SocketError error;
   http::write(socket, request, error);
   if (error) return base::fail(trouble(error));
+  socket.allow(kMostOfAnswer);
   beast::flat_buffer buffer;
-  http::response_parser<http::string_body> answer;
-  answer.body_limit(kMostOfAnswer);
+  http::response_parser<http::empty_body> header;
+  header.body_limit(kMostOfAnswer);
+  http::read_header(socket, buffer, header, error);
+  if (error) return base::fail(trouble(error));
+  // A body's memory is taken as soon as its length is known.
+  if (header.content_length_remaining().value_or(0) > kMostOfAnswer)
+    return base::fail("it answers " + path + " at too great a length");
+  http::response_parser<http::string_body> answer(std::move(header));
   http::read(socket, buffer, answer, error);
   if (error) return base::fail(trouble(error));
   if (answer.get().result() != http::status::ok)
