@@ -184,7 +184,7 @@ base::Result<void> PointerForm::change(const std::function<void(devices::DeviceM
 
 void PointerForm::try_change(const std::function<void(devices::DeviceMapping&)>& edit) {
   if (const auto done = change(edit); !done)
-    section_->note().show_text(QString::fromStdString(done.error().message));
+    section_->note().say(QString::fromStdString(done.error().message));
   refresh();
 }
 
@@ -197,7 +197,7 @@ void PointerForm::save() {
   if (!index || !finish_typing()) return;
   const session::PointerUse use = session_.hands().use(*index);
   const auto done = devices::write_mapping(use.address, *use.mapping, "icome, the window's Devices");
-  if (!done) return section_->note().show_text(QString::fromStdString(done.error().message));
+  if (!done) return section_->note().say(QString::fromStdString(done.error().message));
   section_->note().remark("Kept in " + QString::fromStdString(devices::mapping_path(use.address).string()));
 }
 
