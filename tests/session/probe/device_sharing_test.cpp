@@ -20,7 +20,7 @@ namespace {
 
 using base::Vector3;
 using devices::fakes::PlainClient;
-using devices::vrpn::Kind;
+using VrpnKind = devices::vrpn::Kind;
 
 /// What a shared device was told, which lives longer than the device.
 struct Watched {
@@ -99,8 +99,8 @@ TEST_F(DeviceSharingTest, ProgramsSeeEachDevice) {
       return std::abs(devices::vrpn::read_pos_quat(payload)->position.x() - x) < 1e-4;
     };
   };
-  EXPECT_TRUE(client.hears(Kind::PosQuat, is_at(0.01), "Left"));
-  EXPECT_TRUE(client.hears(Kind::PosQuat, is_at(0.02), "Right"));
+  EXPECT_TRUE(client.hears(VrpnKind::PosQuat, is_at(0.01), "Left"));
+  EXPECT_TRUE(client.hears(VrpnKind::PosQuat, is_at(0.02), "Right"));
   EXPECT_EQ(sharing_->devices(), 2U);
 }
 
@@ -108,10 +108,10 @@ TEST_F(DeviceSharingTest, ForcesOfAProgramAreFeltOnItsDeviceUntilItLeaves) {
   {
     PlainClient client(port_);
     client.greet("Right");
-    client.say(Kind::Plane, floor());
+    client.say(VrpnKind::Plane, floor());
     EXPECT_TRUE(happens([&] { return watched_[1].force_y > 0.1; }));
     EXPECT_TRUE(client.hears(
-        Kind::Force,
+        VrpnKind::Force,
         [](std::string_view payload) {
           const devices::vrpn::Payload none = devices::vrpn::Payload().put(Vector3(0, 0, 0));
           return payload != none.bytes();
@@ -125,12 +125,12 @@ TEST_F(DeviceSharingTest, ForcesOfAProgramAreFeltOnItsDeviceUntilItLeaves) {
 TEST_F(DeviceSharingTest, ADeviceThatIsLostHasNoForceAndComesBack) {
   PlainClient client(port_);
   client.greet("Left");
-  client.say(Kind::Plane, floor());
+  client.say(VrpnKind::Plane, floor());
   ASSERT_TRUE(happens([&] { return watched_[0].force_y > 0.1; }));
   watched_[0].lost = true;
   EXPECT_TRUE(happens([&] { return watched_[0].force_y == 0.0; }));
   EXPECT_TRUE(client.hears(
-      Kind::PosQuat, [](std::string_view) { return true; }, "Right"))
+      VrpnKind::PosQuat, [](std::string_view) { return true; }, "Right"))
       << "the other goes on";
   watched_[0].lost = false;
   EXPECT_TRUE(happens([&] { return watched_[0].force_y > 0.1; }));
@@ -139,7 +139,7 @@ TEST_F(DeviceSharingTest, ADeviceThatIsLostHasNoForceAndComesBack) {
 TEST_F(DeviceSharingTest, ItEndsWithoutForcesAndSaysFarewell) {
   PlainClient client(port_);
   client.greet("Left");
-  client.say(Kind::Plane, floor());
+  client.say(VrpnKind::Plane, floor());
   ASSERT_TRUE(happens([&] { return watched_[0].force_y > 0.1; }));
   sharing_.reset();
   EXPECT_EQ(watched_[0].force_y, 0.0);
