@@ -1,0 +1,42 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace icome::collab {
+
+/// What somebody may do with a design; each includes what is before it.
+enum class Role : std::uint8_t { View, Edit, Own };
+std::string_view role_name(Role role);  // "view", "edit", "own"
+
+/// What a token says: whoever shows it may work on that design in that role.
+struct Invitation {
+  std::string id = {};  // 128 random bits as text: names the invitation in revocations and audit logs
+  std::string design = {};
+  Role role = Role::View;
+  std::int64_t expires = 0;  // ms since 1970 (UTC)
+};
+
+/// Signs and checks tokens (HMAC-SHA256) with a key that only this store has.
+class TokenSigner {
+ public:
+  /// Reads the key from a file, which only its owner may read; makes one where there is none.
+  static base::Result<TokenSigner> open(const std::filesystem::path& key);
+
+  /// A token: letters, digits, '-' and '_' only, as short as it can be.
+  base::Result<std::string> sign(const Invitation& invitation) const;
+  /// What a token says, if it was signed with this key, is for this design and has not expired at `now` (ms
+  /// since 1970). Takes the same time wherever a forged signature differs, and fails alike for all: "The link
+  /// is not valid (any more)
+  /// ..."; a token that was genuine but has expired is told so.
+  base::Result<Invitation> check(std::string_view token, std::string_view design, std::int64_t now) const;
+
+ private:
+  explicit TokenSigner(std::string key) : key_(std::move(key)) {}
+  std::string key_;
+};
+
+}  // namespace icome::collab
