@@ -5,12 +5,9 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "collab/protocol/message.h"
 
 namespace icome::collab {
-
-/// What somebody may do with a design; each includes what is before it.
-enum class Role : std::uint8_t { View, Edit, Own };
-std::string_view role_name(Role role);  // "view", "edit", "own"
 
 /// What a token says: whoever shows it may work on that design in that role.
 struct Invitation {

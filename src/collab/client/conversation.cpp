@@ -1,0 +1,347 @@
+#include "collab/client/conversation.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "collab/order/world_bytes.h"
+#include "collab/protocol/message_bytes.h"
+#include "world/edit/edit_bytes.h"
+
+namespace icome::collab {
+namespace {
+
+constexpr std::size_t kFrameBytes = 1U << 18U;    // at most so many are begun to be put into one frame
+constexpr std::size_t kPartBytes = 1U << 18U;     // of an edit that is sent in parts
+constexpr std::uint64_t kPieceBytes = 1U << 18U;  // of a snapshot, as servers send them
+constexpr std::uint64_t kPiecesAhead = 3;         // asked for before the first of them has come
+constexpr std::int64_t kUsualLease = 8'000;       // ms
+
+}  // namespace
+
+Conversation::Conversation(DesignAddress address, ClientIdentity identity, world::GeometryFactory factory)
+    : address_(std::move(address)),
+      identity_(std::move(identity)),
+      factory_(factory),
+      replica_(std::move(factory)) {}
+
+// ---- the connection
+
+void Conversation::opened(std::int64_t now) {
+  now_ = now;
+  connected_ = true;
+  wants_to_close_ = said_bye_ = settled_ = false;
+  outgoing_.clear();
+  alive_said_ = now;
+  change_state(ConversationState::Joining, "");
+  Hello hello;
+  hello.token = address_.token;
+  hello.design = address_.design;
+  hello.client_key = identity_.key;
+  hello.name = identity_.name;
+  hello.colour = identity_.colour;
+  hello.program = identity_.program;
+  hello.has_world = replica_.can_resume() && !needs_anew_;
+  hello.have = replica_.durable();
+  queue(hello);
+}
+
+void Conversation::closed(const std::string& why, std::int64_t now) {
+  now_ = now;
+  connected_ = false;
+  welcome_.reset();
+  whereabouts_.clear();
+  for (auto& [author, person] : people_) person.here = false;
+  if (const auto done = replica_.rewind(); !done) needs_anew_ = true;
+  if (state_ != ConversationState::Ended) change_state(ConversationState::Away, why_.empty() ? why : why_);
+}
+
+void Conversation::received(std::string_view frame, std::int64_t now) {
+  now_ = now;
+  while (!frame.empty() && !wants_to_close_) {
+    const auto bytes = next_in_frame(frame);
+    auto message = bytes ? server_message(*bytes) : tl::unexpected(bytes.error());
+    if (!message) return begin_anew(message.error());
+    std::visit([this](auto& it) { hear(it); }, *message);
+  }
+}
+
+SharedBytes Conversation::next_frame(std::int64_t now) {
+  now_ = now;
+  if (!connected_) return nullptr;
+  if (now - alive_said_ >= std::int64_t(lease_ > 0 ? lease_ : kUsualLease) / 4) {
+    alive_said_ = now;
+    queue(Alive{std::uint64_t(now)});
+  }
+  if (state_ == ConversationState::Live) queue_edits();
+  std::string frame;
+  while (!outgoing_.empty() && frame.size() < kFrameBytes) {
+    add_to_frame(frame, outgoing_.front());
+    outgoing_.pop_front();
+  }
+  if (state_ == ConversationState::Live && to_present_)
+    add_to_frame(frame, to_bytes(ClientMessage(Present{*std::exchange(to_present_, std::nullopt)})));
+  if (said_bye_ && outgoing_.empty()) wants_to_close_ = true;
+  return frame.empty() ? nullptr : std::make_shared<const std::string>(std::move(frame));
+}
+
+void Conversation::queue(const ClientMessage& message) { outgoing_.push_back(to_bytes(message)); }
+
+void Conversation::queue_edits() {
+  std::size_t bytes = 0;
+  while (bytes < kFrameBytes) {
+    auto submit = replica_.next_to_send();
+    if (!submit) break;
+    bytes += submit->edit.size();
+    queue_edit(std::move(*submit));
+  }
+  if (leaves_ && !said_bye_ && replica_.unacknowledged() == 0) {
+    said_bye_ = true;
+    queue(Bye{});
+  }
+}
+
+/// A long edit goes in parts, so that no frame is long.
+void Conversation::queue_edit(Submit submit) {
+  if (submit.edit.size() <= kPartBytes) return queue(submit);
+  const std::string whole = std::exchange(submit.edit, {});
+  submit.total = whole.size();
+  for (std::size_t at = 0; at < whole.size(); at += kPartBytes) {
+    submit.edit = whole.substr(at, kPartBytes);
+    queue(submit);
+  }
+}
+
+void Conversation::change_state(ConversationState state, const std::string& why) {
+  if (state == state_) return;
+  state_ = state;
+  seen_.emplace_back(SeenState{state, why});
+}
+
+/// The copy differs from the server's, or what it says cannot be read: everything is asked for once more.
+void Conversation::begin_anew(const base::Error& error) {
+  needs_anew_ = true;
+  wants_to_close_ = true;
+  why_ = error.message;
+}
+
+void Conversation::end(const std::string& why, Parting code) {
+  why_ = why;
+  parting_ = code;
+  const bool may_be_tried_again =
+      code == Parting::Other || code == Parting::ServerStops || code == Parting::TooSlow;
+  if (code == Parting::TooSlow) needs_anew_ = true;
+  if (!may_be_tried_again) change_state(ConversationState::Ended, why);
+  wants_to_close_ = true;
+}
+
+// ---- what the server says
+
+void Conversation::hear(Refused& message) { end(message.why, message.code); }
+void Conversation::hear(Goodbye& message) { end(message.why, message.code); }
+
+void Conversation::hear(Welcome& message) {
+  const bool goes_on = welcome_ && message.snapshot == welcome_->snapshot &&
+                       message.snapshot_bytes == welcome_->snapshot_bytes &&
+                       message.snapshot <= welcome_->durable;
+  why_.clear();
+  replica_.set_author(message.author, message.last_number);
+  role_ = message.role;
+  lease_ = message.lease;
+  welcome_ = message;
+  settled_ = false;
+  change_state(ConversationState::Joining, "");
+  if (!message.loads) return go_live_if_caught_up();
+  if (!goes_on) snapshot_.clear();
+  asked_for_ = snapshot_.size();
+  if (snapshot_.size() == message.snapshot_bytes) return finish_loading();
+  want_pieces();
+}
+
+void Conversation::want_pieces() {
+  while (asked_for_ < welcome_->snapshot_bytes &&
+         asked_for_ < snapshot_.size() + kPiecesAhead * kPieceBytes) {
+    queue(Want{welcome_->snapshot, asked_for_});
+    asked_for_ += kPieceBytes;
+  }
+}
+
+void Conversation::hear(Piece& message) {
+  if (!welcome_ || message.snapshot != welcome_->snapshot || message.offset != snapshot_.size() ||
+      message.bytes.empty() || message.bytes.size() > welcome_->snapshot_bytes - snapshot_.size())
+    return;  // of a snapshot that is no longer asked for
+  snapshot_ += message.bytes;
+  if (snapshot_.size() == welcome_->snapshot_bytes) {
+    finish_loading();
+  } else {
+    asked_for_ = std::max<std::uint64_t>(asked_for_, snapshot_.size());
+    want_pieces();
+  }
+}
+
+void Conversation::finish_loading() {
+  auto world = world_from_bytes(std::exchange(snapshot_, {}), factory_);
+  if (!world) return begin_anew(world.error());
+  if (const auto done = replica_.begin(std::move(*world), welcome_->snapshot); !done)
+    return begin_anew(done.error());
+  needs_anew_ = false;
+  replica_.durable({welcome_->durable});
+  queue(Loaded{welcome_->snapshot});
+  go_live_if_caught_up();
+}
+
+double Conversation::progress() const {
+  if (state_ == ConversationState::Live) return 1.0;
+  if (!welcome_ || welcome_->snapshot_bytes == 0) return 0.0;
+  return double(snapshot_.size()) / double(welcome_->snapshot_bytes);
+}
+
+/// Joined once all is here that the server had ordered when it said welcome.
+void Conversation::go_live_if_caught_up() {
+  if (!welcome_ || settled_ || replica_.sequence() < welcome_->sequence) return;
+  settled_ = true;
+  auto dropped = replica_.settle(welcome_->last_number);
+  if (!dropped) return begin_anew(dropped.error());
+  for (Dropped& it : *dropped) seen_.emplace_back(std::move(it));
+  change_state(ConversationState::Live, "");
+}
+
+void Conversation::hear(Ordered& message) {
+  SeenEdit seen{message.last, message.author, 0, {}, {}};
+  if (message.author == replica_.author() && message.number > 0) seen.number = message.number;
+  if (const auto done = replica_.ordered(message); !done) return begin_anew(done.error());
+  if (const world::Edit* const edit = replica_.last_ordered()) {
+    seen.word = edit_word(*edit);
+    for (const Touched& it : touched_by(*edit))
+      if (seen.items.empty() || seen.items.back() != it.item) seen.items.push_back(it.item);
+  }
+  seen_.emplace_back(std::move(seen));
+  go_live_if_caught_up();
+}
+
+void Conversation::hear(Accepted& message) {
+  Ordered ordered{message.sequence, message.sequence, replica_.author(), message.number, {}, false};
+  hear(ordered);
+}
+
+void Conversation::hear(Rejected& message) {
+  auto dropped = replica_.rejected(message);
+  if (!dropped) return begin_anew(dropped.error());
+  if (*dropped) seen_.emplace_back(std::move(**dropped));
+}
+
+void Conversation::hear(Durable& message) {
+  replica_.durable(message);
+  seen_.emplace_back(SeenDurable{message.sequence});
+}
+
+void Conversation::hear(Selected& message) {
+  if (message.granted) holds_[message.item] = {message.item, replica_.author(), message.fence, 0};
+  if (!message.granted && !message.waits) wanted_.erase(message.item);
+  seen_.emplace_back(message);
+}
+
+void Conversation::hear(FloorChanged& message) {
+  const auto found = holds_.find(message.item);
+  const bool was_mine = found != holds_.end() && found->second.holder == replica_.author();
+  if (message.holder == 0) {
+    if (was_mine) wanted_.erase(message.item);
+    if (found != holds_.end() && found->second.fence == message.fence) holds_.erase(found);
+  } else {
+    holds_[message.item] = message;
+  }
+  seen_.emplace_back(message);
+}
+
+void Conversation::hear(FloorState& message) {
+  holds_.clear();
+  for (const FloorChanged& hold : message.holds) holds_[hold.item] = hold;
+  for (const auto& [item, waits] : wanted_) {
+    const auto found = holds_.find(item);
+    if (found == holds_.end() || found->second.holder != replica_.author()) queue(Select{item, waits});
+  }
+}
+
+void Conversation::hear(People& message) {
+  for (const Person& person : message.people) {
+    people_[person.author] = person;
+    if (!person.here) whereabouts_.erase(person.author);
+    if (person.author == replica_.author()) role_ = person.role;
+    seen_.emplace_back(person);
+  }
+}
+
+void Conversation::hear(Presence& message) { whereabouts_[message.author] = message.where; }
+void Conversation::hear(Said& message) { seen_.emplace_back(message); }
+void Conversation::hear(Living& message) { delay_ = now_ - std::int64_t(message.echo); }
+
+std::string Conversation::name_of(std::uint32_t author) const {
+  const auto found = people_.find(author);
+  return found == people_.end() || found->second.name.empty() ? "Somebody" : found->second.name;
+}
+
+std::vector<Seen> Conversation::take_seen() { return std::exchange(seen_, {}); }
+
+// ---- the design, the floor, people
+
+std::vector<std::uint64_t> Conversation::fences_for(const world::Edit& edit) const {
+  std::vector<std::uint64_t> fences;
+  const auto add = [&](Item item) {
+    const auto found = holds_.find(item);
+    if (found != holds_.end() && found->second.holder == replica_.author())
+      fences.push_back(found->second.fence);
+  };
+  const auto add_path = [&](world::ObjectId object) {
+    while (const world::PhysicalObject* const it = replica_.world().find(object)) {
+      add(item_of(object));
+      object = it->parent;
+    }
+  };
+  const Needs needs = needs_of(edit);
+  for (const Item item : needs.items) {
+    if (item.kind == ItemKind::Object) {
+      add_path(world::ObjectId{item.id});
+    } else {
+      add(item);
+    }
+  }
+  for (const world::ObjectId parent : needs.entered) add_path(parent);
+  std::ranges::sort(fences);
+  fences.erase(std::unique(fences.begin(), fences.end()), fences.end());
+  return fences;
+}
+
+base::Result<std::uint64_t> Conversation::perform(const world::Edit& edit, const std::string& name,
+                                                  bool merges) {
+  return replica_.perform(edit, name, fences_for(edit), merges);
+}
+
+base::Result<std::uint64_t> Conversation::turn(bool back) {
+  std::uint32_t whose = 0;
+  auto number = back ? replica_.undo({}, &whose) : replica_.redo({}, &whose);
+  if (number || whose == 0) return number;
+  return base::fail(number.error().message + " It was " + name_of(whose) + ".");
+}
+
+void Conversation::select(Item item, bool waits) {
+  wanted_[item] = waits;
+  if (connected_ && welcome_) queue(Select{item, waits});
+}
+
+void Conversation::deselect(Item item) {
+  wanted_.erase(item);
+  const auto found = holds_.find(item);
+  if (found != holds_.end() && found->second.holder == replica_.author()) holds_.erase(found);
+  if (connected_ && welcome_) queue(Deselect{item});
+}
+
+void Conversation::take_away(Item item) {
+  if (connected_ && welcome_) queue(TakeAway{item});
+}
+
+void Conversation::present(const Whereabouts& where) { to_present_ = where; }
+
+void Conversation::say(const std::string& text) {
+  if (connected_ && welcome_) queue(Say{text});
+}
+
+}  // namespace icome::collab

@@ -1,0 +1,169 @@
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "collab/client/replica.h"
+#include "collab/link/link_loop.h"
+#include "collab/protocol/address.h"
+
+namespace icome::collab {
+
+/// Who a client is.
+struct ClientIdentity {
+  std::string key = {};             // the same one is the same author to a server; nobody else should know it
+  std::string name = {};            // of the person
+  std::uint32_t colour = 0x808080;  // 0xRRGGBB
+  std::string program = {};
+};
+
+/// How far a conversation has got.
+enum class ConversationState : std::uint8_t {
+  Away,     // no connection (yet, or any more); it may come
+  Joining,  // connected: the design comes
+  Live,
+  Ended,  // no connection will help: see why_ended()
+};
+
+// What a conversation tells of, besides the world itself.
+
+/// An edit that was ordered; one's own as well.
+struct SeenEdit {
+  std::uint64_t sequence = 0;  // of the last, where several were merged
+  std::uint32_t author = 0;
+  std::uint64_t number = 0;  // of one's own; else 0
+  std::string word = {};     // "create", "translate" and so on
+  std::vector<Item> items = {};
+};
+/// Everything up to here is durable.
+struct SeenDurable {
+  std::uint64_t sequence = 0;
+};
+struct SeenState {
+  ConversationState state = ConversationState::Away;
+  std::string why = {};
+};
+/// What happens in a conversation, in order.
+using Seen = std::variant<SeenEdit, SeenDurable, SeenState, Dropped, Selected, FloorChanged, Person, Said>;
+
+/// A client's side of the work on one design, without sockets and clocks: the copy of the design, the floor,
+/// the people, and what is still to be said. Whoever owns it brings frames in and out, connects again when a
+/// connection is lost, and says what time it is (ms on a steady clock). What was done while nobody was
+/// connected is sent when somebody is. One thread.
+class Conversation {
+ public:
+  Conversation(DesignAddress address, ClientIdentity identity, world::GeometryFactory factory = {});
+
+  // ---- the connection
+  void opened(std::int64_t now);
+  void received(std::string_view frame, std::int64_t now);
+  void closed(const std::string& why, std::int64_t now);
+  /// The next frame to send; null when there is nothing now. Only while connected.
+  SharedBytes next_frame(std::int64_t now);
+  /// The connection should be ended: the copy differs from the server's, or everything was said.
+  bool wants_to_close() const { return wants_to_close_; }
+
+  ConversationState state() const { return state_; }
+  const std::string& why_ended() const { return why_; }
+  Parting how_ended() const { return parting_; }
+  /// The part of the design that has come, in [0, 1].
+  double progress() const;
+  /// ms there and back, of the last answer; nothing before the first.
+  std::optional<std::int64_t> delay() const { return delay_; }
+  Role role() const { return role_; }
+  const DesignAddress& address() const { return address_; }
+
+  // ---- the design
+  Replica& replica() { return replica_; }
+  const Replica& replica() const { return replica_; }
+  /// Performs an edit here and for all; see Replica::perform. It is sent under the holds that cover it.
+  base::Result<std::uint64_t> perform(const world::Edit& edit, const std::string& name, bool merges = false);
+  base::Result<std::uint64_t> undo() { return turn(true); }
+  base::Result<std::uint64_t> redo() { return turn(false); }
+
+  // ---- the floor
+  void select(Item item, bool waits = false);
+  void deselect(Item item);
+  void take_away(Item item);
+  /// All that is held, by whom.
+  const std::map<Item, FloorChanged>& holds() const { return holds_; }
+
+  // ---- people
+  void present(const Whereabouts& where);
+  void say(const std::string& text);
+  const std::map<std::uint32_t, Person>& people() const { return people_; }
+  const std::map<std::uint32_t, Whereabouts>& whereabouts() const { return whereabouts_; }
+  /// "Ann", or "Somebody".
+  std::string name_of(std::uint32_t author) const;
+
+  /// Leaves for good, once what is pending is durable.
+  void leave() { leaves_ = true; }
+
+  /// What has happened since the last call.
+  std::vector<Seen> take_seen();
+
+ private:
+  void hear(Welcome& message);
+  void hear(Refused& message);
+  void hear(Piece& message);
+  void hear(Ordered& message);
+  void hear(Accepted& message);
+  void hear(Rejected& message);
+  void hear(Durable& message);
+  void hear(Selected& message);
+  void hear(FloorChanged& message);
+  void hear(FloorState& message);
+  void hear(People& message);
+  void hear(Presence& message);
+  void hear(Said& message);
+  void hear(Living& message);
+  void hear(Goodbye& message);
+
+  base::Result<std::uint64_t> turn(bool back);
+  std::vector<std::uint64_t> fences_for(const world::Edit& edit) const;
+  void queue(const ClientMessage& message);
+  void queue_edit(Submit submit);
+  void queue_edits();
+  void want_pieces();
+  void finish_loading();
+  void go_live_if_caught_up();
+  void change_state(ConversationState state, const std::string& why);
+  void begin_anew(const base::Error& error);
+  void end(const std::string& why, Parting code);
+  std::int64_t now_ = 0;
+
+  DesignAddress address_;
+  ClientIdentity identity_;
+  world::GeometryFactory factory_;
+  Replica replica_;
+  ConversationState state_ = ConversationState::Away;
+  bool connected_ = false;
+  bool wants_to_close_ = false;
+  bool needs_anew_ = false;  // the next hello says that there is no world
+  bool leaves_ = false, said_bye_ = false;
+  std::string why_;
+  Parting parting_ = Parting::Other;
+  Role role_ = Role::View;
+
+  std::deque<std::string> outgoing_;
+  std::optional<Whereabouts> to_present_;
+  std::optional<Welcome> welcome_;
+  std::string snapshot_;         // the part that has come
+  std::uint64_t asked_for_ = 0;  // bytes of it that were asked for
+  bool settled_ = false;
+  std::uint32_t lease_ = 0;      // ms
+  std::int64_t alive_said_ = 0;  // ms
+  std::optional<std::int64_t> delay_;
+
+  std::map<Item, FloorChanged> holds_;
+  std::map<Item, bool> wanted_;  // what was selected, so that it is asked for again; waits?
+  std::map<std::uint32_t, Person> people_;
+  std::map<std::uint32_t, Whereabouts> whereabouts_;
+  std::vector<Seen> seen_;
+};
+
+}  // namespace icome::collab

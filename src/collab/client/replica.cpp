@@ -1,0 +1,291 @@
+#include "collab/client/replica.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "collab/order/fitted_edit.h"
+#include "world/edit/edit_bytes.h"
+
+namespace icome::collab {
+namespace {
+
+/// Does the newer of two edits make the older one needless, as the steps of a drag do?
+bool replaces(const world::Edit& older, const world::Edit& newer) {
+  if (const auto* const place = std::get_if<world::PlaceObject>(&older.what)) {
+    const auto* const other = std::get_if<world::PlaceObject>(&newer.what);
+    return other != nullptr && other->id == place->id;
+  }
+  const auto* const vertices = std::get_if<world::MoveVertices>(&older.what);
+  const auto* const other = std::get_if<world::MoveVertices>(&newer.what);
+  return vertices != nullptr && other != nullptr && vertices->id == other->id &&
+         vertices->vertices == other->vertices;
+}
+
+bool gets_in_the_way(Aspect mine, Aspect theirs) {
+  return mine == theirs || mine == Aspect::Existence || theirs == Aspect::Existence;
+}
+
+tl::unexpected<base::Error> differs(const std::string& why) {
+  return base::fail("This copy of the design differs from the server's: " + why);
+}
+
+}  // namespace
+
+void Replica::set_author(std::uint32_t author, std::uint64_t last_number) {
+  author_ = author;
+  last_number_ = std::max(last_number_, last_number);
+}
+
+base::Result<world::Edit> Replica::change(const world::Edit& edit) {
+  auto inverse = apply_fitted(world_, edit);
+  if (inverse && changed_) changed_(edit);
+  return inverse;
+}
+
+base::Result<void> Replica::take_back(const world::Edit& inverse) {
+  const auto done = world::apply(world_, inverse);
+  if (!done) return differs(done.error().message);
+  if (changed_) changed_(inverse);
+  return {};
+}
+
+/// Takes the own edits from `from` on back, the last one first.
+base::Result<void> Replica::take_pending_back(std::size_t from) {
+  for (std::size_t i = pending_.size(); i > from; --i) {
+    Pending& it = pending_[i - 1];
+    if (!it.inverse) continue;
+    if (auto done = take_back(*std::exchange(it.inverse, std::nullopt)); !done) return done;
+  }
+  return {};
+}
+
+/// Those that do not apply now stay aside: others' next edits may make room for them before the server sees
+/// them.
+void Replica::redo_pending(std::size_t from) {
+  for (std::size_t i = from; i < pending_.size(); ++i) {
+    Pending& it = pending_[i];
+    auto inverse = change(it.edit);
+    if (!inverse) continue;
+    if (const auto own = own_.find(it.number); own != own_.end()) own->second.inverse = *inverse;
+    it.inverse = std::move(*inverse);
+  }
+}
+
+bool Replica::merges_into_last(const world::Edit& edit) const {
+  return !pending_.empty() && !pending_.back().sent && pending_.back().inverse &&
+         replaces(pending_.back().edit, edit);
+}
+
+base::Result<std::uint64_t> Replica::perform(const world::Edit& edit, const std::string& name,
+                                             std::vector<std::uint64_t> fences, bool merges) {
+  if (const auto bytes = world::to_bytes(edit); !bytes) return tl::unexpected(bytes.error());
+  auto inverse = change(edit);
+  if (!inverse) return tl::unexpected(inverse.error());
+  undone_.clear();
+  if (merges && merges_into_last(edit)) {  // the older inverse takes both back
+    pending_.back().edit = edit;
+    pending_.back().fences = std::move(fences);
+    return pending_.back().number;
+  }
+  const std::uint64_t number = ++last_number_;
+  own_.insert_or_assign(number, Own{*inverse, 0});
+  const bool goes_on = merges && !done_.empty() && done_.back().name == name && !pending_.empty() &&
+                       replaces(pending_.back().edit, edit);
+  if (!goes_on) done_.push_back({name, {}});
+  done_.back().numbers.push_back(number);
+  pending_.push_back({number, name, edit, std::move(fences), sequence_, false, std::move(*inverse)});
+  return number;
+}
+
+std::optional<Submit> Replica::next_to_send() {
+  const auto next = std::ranges::find_if(pending_, [](const Pending& it) { return !it.sent; });
+  if (next == pending_.end()) return std::nullopt;
+  next->sent = true;
+  auto bytes = world::to_bytes(next->edit);
+  // perform() takes only what can be written: what cannot would be refused by the server.
+  return Submit{next->number, next->base, next->fences, bytes ? std::move(*bytes) : std::string(), 0};
+}
+
+bool Replica::has_unsent() const {
+  return std::ranges::any_of(pending_, [](const Pending& it) { return !it.sent; });
+}
+
+std::size_t Replica::unacknowledged() const {
+  return pending_.size() + std::size_t(std::ranges::count_if(tentative_, [this](const Tentative& it) {
+           return it.author == author_ && it.number > 0 && author_ != 0;
+         }));
+}
+
+base::Result<void> Replica::begin(world::World world, std::uint64_t sequence) {
+  world_ = std::move(world);
+  tentative_.clear();
+  has_base_ = true;
+  base_ = sequence_ = sequence;
+  for (Pending& it : pending_) it.inverse.reset();
+  redo_pending();
+  return {};
+}
+
+base::Result<void> Replica::ordered(const Ordered& it) {
+  if (it.last <= sequence_) return {};
+  if (it.first > sequence_ + 1 || it.last < it.first) return differs("edits are missing in between.");
+  if (it.author == author_ && it.number > 0) {
+    const auto own = std::ranges::find(pending_, it.number, &Pending::number);
+    if (own != pending_.end()) return accepted({it.number, it.last});
+  }
+  const auto edit = world::edit_from_bytes(it.edit, factory_);
+  if (!edit) return tl::unexpected(edit.error());
+  if (auto done = take_pending_back(); !done) return done;
+  auto inverse = change(*edit);
+  if (!inverse) return differs(inverse.error().message);
+  sequence_ = it.last;
+  note_others(*edit, it.last, it.author);
+  tentative_.push_back({it.first, it.last, it.author, 0, {}, *edit, std::move(*inverse), {}, 0});
+  redo_pending();
+  return {};
+}
+
+base::Result<void> Replica::accepted(const Accepted& it) {
+  if (it.sequence != sequence_ + 1) return differs("the order of edits is not the server's.");
+  const auto found = std::ranges::find(pending_, it.number, &Pending::number);
+  if (found == pending_.end()) return differs("the server has ordered an edit that is not known here.");
+  const auto index = std::size_t(found - pending_.begin());
+  const bool comes_early =
+      index > 0 || !found->inverse;  // before others of one's own, or it did not apply so far
+  if (comes_early) {
+    if (auto done = take_pending_back(); !done) return done;
+    auto inverse = change(pending_[index].edit);
+    if (!inverse) return differs(inverse.error().message);
+    pending_[index].inverse = std::move(*inverse);
+  }
+  Pending own = std::move(pending_[index]);
+  pending_.erase(pending_.begin() + std::ptrdiff_t(index));
+  sequence_ = it.sequence;
+  if (const auto kept = own_.find(own.number); kept != own_.end())
+    kept->second = Own{*own.inverse, it.sequence};
+  tentative_.push_back({it.sequence, it.sequence, author_, own.number, std::move(own.name),
+                        std::move(own.edit), std::move(*own.inverse), std::move(own.fences), own.base});
+  if (comes_early) redo_pending();
+  return {};
+}
+
+void Replica::forget(std::uint64_t number) {
+  own_.erase(number);
+  for (std::vector<Action>* actions : {&done_, &undone_}) {
+    for (Action& action : *actions) std::erase(action.numbers, number);
+    std::erase_if(*actions, [](const Action& action) { return action.numbers.empty(); });
+  }
+}
+
+Dropped Replica::drop(std::size_t index, const std::string& why, std::uint32_t whose) {
+  Pending& it = pending_[index];
+  Dropped dropped{it.number, std::move(it.name), why, whose, std::move(it.edit)};
+  pending_.erase(pending_.begin() + std::ptrdiff_t(index));
+  forget(dropped.number);
+  return dropped;
+}
+
+base::Result<std::optional<Dropped>> Replica::rejected(const Rejected& it) {
+  const auto found = std::ranges::find(pending_, it.number, &Pending::number);
+  if (found == pending_.end()) return std::nullopt;
+  const auto index = std::size_t(found - pending_.begin());
+  if (auto done = take_pending_back(index); !done) return tl::unexpected(done.error());
+  Dropped dropped = drop(index, it.why, it.whose);
+  redo_pending(index);
+  return dropped;
+}
+
+void Replica::durable(const Durable& it) {
+  durable_ = std::max(durable_, it.sequence);
+  while (!tentative_.empty() && tentative_.front().last <= durable_) {
+    base_ = tentative_.front().last;
+    tentative_.pop_front();
+  }
+}
+
+base::Result<std::vector<Dropped>> Replica::settle(std::uint64_t last_number) {
+  std::vector<Dropped> dropped;
+  if (pending_.empty() || pending_.front().number > last_number) return dropped;
+  if (auto done = take_pending_back(); !done) return tl::unexpected(done.error());
+  while (!pending_.empty() && pending_.front().number <= last_number)
+    dropped.push_back(drop(0, "The server refused it while the connection was lost.", 0));
+  redo_pending();
+  return dropped;
+}
+
+base::Result<void> Replica::rewind() {
+  if (auto done = take_pending_back(); !done) return done;
+  for (; !tentative_.empty(); tentative_.pop_back()) {
+    Tentative& it = tentative_.back();
+    if (auto done = take_back(it.inverse); !done) return done;
+    if (it.author != author_ || it.number == 0) continue;
+    if (const auto own = own_.find(it.number); own != own_.end()) own->second.sequence = 0;
+    pending_.push_front({it.number, std::move(it.name), std::move(it.edit), std::move(it.fences), it.base,
+                         false, std::nullopt});
+  }
+  sequence_ = base_;
+  for (Pending& it : pending_) it.sent = false;
+  redo_pending();
+  return {};
+}
+
+void Replica::note_others(const world::Edit& edit, std::uint64_t sequence, std::uint32_t author) {
+  if (author == author_) return;
+  for (const Touched& it : touched_by(edit)) others_[it.item][it.aspect] = {sequence, author};
+}
+
+/// The last edit of another behind `since` that gets in the way of taking something back by `edit`.
+std::optional<Replica::Touch> Replica::later_touch(const world::Edit& edit, std::uint64_t since) const {
+  for (const Touched& mine : touched_by(edit)) {
+    const auto found = others_.find(mine.item);
+    if (found == others_.end()) continue;
+    for (const auto& [aspect, touch] : found->second)
+      if (touch.sequence > since && gets_in_the_way(mine.aspect, aspect)) return touch;
+  }
+  return std::nullopt;
+}
+
+base::Result<std::uint64_t> Replica::turn(std::vector<Action>& from, std::vector<Action>& to,
+                                          std::vector<std::uint64_t> fences, std::uint32_t* whose) {
+  const Action action = from.back();
+  const auto stays = [&](const std::string& why) {
+    return base::fail(
+        fmt::format("\"{}\" stays as it is, as the design has changed since: {}", action.name, why));
+  };
+  world::EditGroup group;
+  for (auto number = action.numbers.rbegin(); number != action.numbers.rend(); ++number) {
+    const Own& own = own_.at(*number);
+    const std::uint64_t since = own.sequence > 0 ? own.sequence : sequence_;
+    if (const auto touch = later_touch(own.inverse, since)) {
+      if (whose != nullptr) *whose = touch->author;
+      return stays("somebody has changed the same thing after it.");
+    }
+    group.edits.push_back(own.inverse);
+  }
+  world::Edit edit =
+      group.edits.size() == 1 ? world::Edit(group.edits.front()) : world::Edit(std::move(group));
+  auto inverse = change(edit);
+  if (!inverse) return stays(inverse.error().message);
+  const std::uint64_t number = ++last_number_;
+  own_.insert_or_assign(number, Own{*inverse, 0});
+  pending_.push_back(
+      {number, action.name, std::move(edit), std::move(fences), sequence_, false, std::move(*inverse)});
+  from.pop_back();
+  for (const std::uint64_t old : action.numbers) own_.erase(old);
+  to.push_back({action.name, {number}});
+  return number;
+}
+
+base::Result<std::uint64_t> Replica::undo(std::vector<std::uint64_t> fences, std::uint32_t* whose) {
+  if (done_.empty()) return base::fail("There is nothing to undo.");
+  return turn(done_, undone_, std::move(fences), whose);
+}
+
+base::Result<std::uint64_t> Replica::redo(std::vector<std::uint64_t> fences, std::uint32_t* whose) {
+  if (undone_.empty()) return base::fail("There is nothing to redo.");
+  return turn(undone_, done_, std::move(fences), whose);
+}
+
+}  // namespace icome::collab

@@ -1,0 +1,157 @@
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "collab/order/items.h"
+#include "collab/protocol/message.h"
+#include "world/edit/edit.h"
+#include "world/shape/geometry_factory.h"
+
+namespace icome::collab {
+
+/// An edit of one's own that did not come to be, for people to hear of.
+struct Dropped {
+  std::uint64_t number = 0;
+  std::string name = {};    // of the action: "Move leg"
+  std::string why = {};     // a sentence
+  std::uint32_t whose = 0;  // the author whose hold or edit was in the way; 0: nobody's
+  world::Edit edit;
+};
+
+/// A client's copy of a design. Its world is what the server has ordered, and on top the person's own edits
+/// that the server has not ordered yet: they show at once. When others' edits come first, the own ones are
+/// taken back, theirs applied, and the own ones redone; one that no longer applies stays aside until the
+/// server has spoken. Owns the world; one thread uses it.
+///
+/// What the server has ordered may be lost with it until it is durable: rewind() goes back to what cannot be
+/// lost.
+class Replica {
+ public:
+  /// Called with each edit that the world has undergone, also those that take others back.
+  using Changed = std::function<void(const world::Edit& edit)>;
+
+  explicit Replica(world::GeometryFactory factory = {}) : factory_(std::move(factory)) {}
+  void on_change(Changed changed) { changed_ = std::move(changed); }
+
+  const world::World& world() const { return world_; }
+  /// Sequence of the last ordered edit in it.
+  std::uint64_t sequence() const { return sequence_; }
+  /// Sequence of the last edit in it that cannot be lost any more; all of a snapshot's count as soon as the
+  /// server has said so.
+  std::uint64_t durable() const { return base_; }
+  /// Is the world beneath all tentative edits durable, so that one may resume from it?
+  bool can_resume() const { return has_base_ && base_ <= durable_; }
+
+  /// The author whose edits are one's own, and the highest number that it has used.
+  void set_author(std::uint32_t author, std::uint64_t last_number);
+  std::uint32_t author() const { return author_; }
+
+  // ---- one's own edits
+
+  /// Applies an edit and queues it for the server. With `merges`, it may replace the last one where that has
+  /// not been sent and both only place the same object or move the same vertices (the steps of a drag). Gives
+  /// its number.
+  base::Result<std::uint64_t> perform(const world::Edit& edit, const std::string& name,
+                                      std::vector<std::uint64_t> fences = {}, bool merges = false);
+  /// Takes the last own action back, as a new edit, or fails and says what is in the way: somebody's later
+  /// edit, with the author in `whose`.
+  base::Result<std::uint64_t> undo(std::vector<std::uint64_t> fences = {}, std::uint32_t* whose = nullptr);
+  base::Result<std::uint64_t> redo(std::vector<std::uint64_t> fences = {}, std::uint32_t* whose = nullptr);
+  std::string undo_name() const { return done_.empty() ? "" : done_.back().name; }
+  std::string redo_name() const { return undone_.empty() ? "" : undone_.back().name; }
+
+  /// The next edit to send; nothing when all are on their way. It counts as sent.
+  std::optional<Submit> next_to_send();
+  bool has_unsent() const;
+  /// The last ordered edit, until a durable() covers it; then null.
+  const world::Edit* last_ordered() const { return tentative_.empty() ? nullptr : &tentative_.back().edit; }
+  /// Own edits that the server has not ordered yet.
+  std::size_t pending() const { return pending_.size(); }
+  /// Own edits that are not durable yet, ordered or not.
+  std::size_t unacknowledged() const;
+
+  // ---- what the server says; a failure means that the copy differs from the server's: begin() anew
+
+  /// Begins with a snapshot; own pending edits are redone on it.
+  base::Result<void> begin(world::World world, std::uint64_t sequence);
+  base::Result<void> ordered(const Ordered& it);
+  base::Result<void> accepted(const Accepted& it);
+  /// Nothing where there is no such edit.
+  base::Result<std::optional<Dropped>> rejected(const Rejected& it);
+  void durable(const Durable& it);
+  /// All that the server had ordered when it said welcome is here: own edits up to its `last_number` that
+  /// were not among it were refused while nobody listened.
+  base::Result<std::vector<Dropped>> settle(std::uint64_t last_number);
+  /// The connection is lost: goes back to what is durable. Own edits behind it are pending and unsent again.
+  base::Result<void> rewind();
+
+ private:
+  struct Pending {
+    std::uint64_t number = 0;
+    std::string name;
+    world::Edit edit;
+    std::vector<std::uint64_t> fences;
+    std::uint64_t base = 0;
+    bool sent = false;
+    std::optional<world::Edit> inverse;  // nothing: it does not apply now
+  };
+  struct Tentative {
+    std::uint64_t first = 0, last = 0;
+    std::uint32_t author = 0;
+    std::uint64_t number = 0;
+    std::string name;
+    world::Edit edit;
+    world::Edit inverse;
+    std::vector<std::uint64_t> fences;
+    std::uint64_t base = 0;
+  };
+  /// An own edit as it may be taken back.
+  struct Own {
+    world::Edit inverse;
+    std::uint64_t sequence = 0;  // 0: not ordered yet
+  };
+  struct Action {
+    std::string name;
+    std::vector<std::uint64_t> numbers;
+  };
+  struct Touch {
+    std::uint64_t sequence = 0;
+    std::uint32_t author = 0;
+  };
+
+  base::Result<world::Edit> change(const world::Edit& edit);
+  base::Result<void> take_back(const world::Edit& inverse);
+  base::Result<void> take_pending_back(std::size_t from = 0);
+  void redo_pending(std::size_t from = 0);
+  bool merges_into_last(const world::Edit& edit) const;
+  base::Result<void> order_own(std::uint64_t sequence, bool has_gap);
+  void note_others(const world::Edit& edit, std::uint64_t sequence, std::uint32_t author);
+  std::optional<Touch> later_touch(const world::Edit& edit, std::uint64_t since) const;
+  base::Result<std::uint64_t> turn(std::vector<Action>& from, std::vector<Action>& to,
+                                   std::vector<std::uint64_t> fences, std::uint32_t* whose);
+  void forget(std::uint64_t number);
+  Dropped drop(std::size_t index, const std::string& why, std::uint32_t whose);
+
+  world::GeometryFactory factory_;
+  Changed changed_;
+  world::World world_;
+  std::uint32_t author_ = 0;
+  std::uint64_t last_number_ = 0;
+  bool has_base_ = false;
+  std::uint64_t base_ = 0;      // sequence of the world beneath tentative_
+  std::uint64_t sequence_ = 0;  // of the world beneath pending_
+  std::uint64_t durable_ = 0;   // that the server has named
+  std::deque<Tentative> tentative_;
+  std::deque<Pending> pending_;
+  std::map<std::uint64_t, Own> own_;  // by number
+  std::vector<Action> done_, undone_;
+  std::unordered_map<Item, std::map<Aspect, Touch>> others_;  // who changed what last, others only
+};
+
+}  // namespace icome::collab
