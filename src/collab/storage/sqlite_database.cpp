@@ -9,12 +9,8 @@ namespace icome::collab {
 namespace {
 
 constexpr int kBusyMilliseconds = 5000;  // for which others that write are waited for
-
-int sqlite_flags(SqliteDatabase::Use use) {
-  // One thread at a time uses a connection, so it needs no locks of its own.
-  constexpr int kAlways = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
-  return kAlways | (use == SqliteDatabase::Use::Read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE);
-}
+// One thread at a time uses a connection, so it needs no locks of its own.
+constexpr int kSqliteFlags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
 
 }  // namespace
 
@@ -35,7 +31,7 @@ base::Error sqlite_error(int code, const std::filesystem::path& path) {
     case SQLITE_NOTADB:
       return {name + ": is not a store of designs. Choose another file or folder."};
     case SQLITE_CORRUPT:
-      return {name + ": is damaged. See what `icome store check` finds, and restore a backup."};
+      return {name + ": is damaged. Restore a backup of the store."};
     case SQLITE_TOOBIG:
       return {name + ": what should be saved is larger than a store can keep (1 GB). Make it smaller."};
     default:
@@ -100,7 +96,7 @@ base::Result<SqliteDatabase> SqliteDatabase::open(const std::filesystem::path& p
     if (const auto made = make_private_file(whole, {}); !made) return tl::unexpected(made.error());
   }
   sqlite3* handle = nullptr;
-  const int code = sqlite3_open_v2(whole.c_str(), &handle, sqlite_flags(use), nullptr);
+  const int code = sqlite3_open_v2(whole.c_str(), &handle, kSqliteFlags, nullptr);
   SqliteDatabase database(handle, whole);
   if (code != SQLITE_OK) return tl::unexpected(sqlite_error(code, whole));
   sqlite3_busy_timeout(handle, kBusyMilliseconds);

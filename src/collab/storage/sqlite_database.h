@@ -77,9 +77,10 @@ class SqliteStatement {
 /// A connection to a SQLite file. Owns it. Errors are sentences that name the file.
 class SqliteDatabase {
  public:
-  enum class Use { Read, Change, ChangeOrCreate };
+  enum class Use { Change, ChangeOrCreate };
 
-  /// A file that is made can be read by its owner only. Whether it is a database shows when it is first read.
+  /// A file that is made can be read by its owner only, and one that may not be written is only read. Whether
+  /// it is a database shows when it is first read.
   static base::Result<SqliteDatabase> open(const std::filesystem::path& path, Use use);
 
   const std::filesystem::path& path() const { return path_; }

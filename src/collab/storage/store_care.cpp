@@ -115,7 +115,7 @@ base::Result<void> copy_pages(const SqliteDatabase& from, const SqliteDatabase& 
 }
 
 base::Result<void> CopyBeside::make(const fs::path& from, const char* change) {
-  const auto source = SqliteDatabase::open(from, SqliteDatabase::Use::Read);
+  const auto source = SqliteDatabase::open(from, SqliteDatabase::Use::Change);
   if (!source) return tl::unexpected(source.error());
   if (const auto good = demand_store(*source); !good) return good;
   {
@@ -152,6 +152,8 @@ fs::path free_name_beside(const fs::path& database) {
 base::Result<void> fold_unless_damaged(const fs::path& path) {
   const auto database = SqliteDatabase::open(path, SqliteDatabase::Use::Change);
   if (!database) return {};
+  // Closing would bring the log of writes into the file, or drop it, also where both are damaged.
+  sqlite3_db_config(database->handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
   const auto good = demand_store(*database);
   const auto mode = good ? database->text("PRAGMA journal_mode = DELETE") : base::Result<std::string>();
   const bool is_busy = (sqlite3_errcode(database->handle()) & 0xff) == SQLITE_BUSY;
@@ -181,10 +183,14 @@ base::Result<fs::path> keep_former(const fs::path& database) {
 }  // namespace
 
 base::Result<std::vector<std::string>> check_store(const fs::path& path) {
-  const auto database = SqliteDatabase::open(path, SqliteDatabase::Use::Read);
+  const auto database = SqliteDatabase::open(path, SqliteDatabase::Use::Change);
   if (!database) return tl::unexpected(database.error());
-  if (const auto good = demand_store(*database); !good) return tl::unexpected(good.error());
   std::vector<std::string> findings;
+  if (const auto good = demand_store(*database); !good) {
+    if ((sqlite3_errcode(database->handle()) & 0xff) != SQLITE_CORRUPT) return tl::unexpected(good.error());
+    findings.push_back(good.error().message);
+    return findings;
+  }
   const auto checked = database->transact("BEGIN", [&]() -> base::Result<void> {
     if (const auto file = add_findings_of_file(*database, findings); !file) return file;
     for (const StoreRule& rule : kStoreRules)
