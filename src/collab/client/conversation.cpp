@@ -42,6 +42,7 @@ void Conversation::opened(std::int64_t now) {
   hello.program = identity_.program;
   hello.has_world = replica_.can_resume() && !needs_anew_;
   hello.have = replica_.durable();
+  hello.history = history_;
   queue(hello);
 }
 
@@ -146,6 +147,7 @@ void Conversation::hear(Welcome& message) {
   why_.clear();
   replica_.set_author(message.author, message.last_number);
   role_ = message.role;
+  history_ = message.history;
   lease_ = message.lease;
   welcome_ = message;
   settled_ = false;

@@ -143,7 +143,8 @@ class Conversation {
   ConversationState state_ = ConversationState::Away;
   bool connected_ = false;
   bool wants_to_close_ = false;
-  bool needs_anew_ = false;  // the next hello says that there is no world
+  bool needs_anew_ = false;    // the next hello says that there is no world
+  std::uint64_t history_ = 0;  // that the copy is of
   bool leaves_ = false, said_bye_ = false;
   std::string why_;
   Parting parting_ = Parting::Other;

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -18,7 +19,7 @@ inline constexpr std::uint16_t kProtocolVersion = 1;
 
 /// What somebody may do with a design; each includes what is before it.
 enum class Role : std::uint8_t { View, Edit, Own };
-std::string role_name(Role role);  // "view", "edit", "own"
+std::string_view role_name(Role role);  // "view", "edit", "own"
 
 // ---- client to server
 
@@ -34,6 +35,7 @@ struct Hello {
   std::string program = {};     // with its version, for logs
   bool has_world = false;       // the client has the world as it was after the edit `have`, which is durable
   std::uint64_t have = 0;
+  std::uint64_t history = 0;  // that the world is of, as Welcome said
 };
 /// Asks for a piece of a snapshot.
 struct Want {
@@ -100,6 +102,7 @@ struct Welcome {
   std::uint64_t snapshot = 0;        // its sequence
   std::uint64_t snapshot_bytes = 0;  // 0: an empty design
   std::uint32_t lease = 0;           // ms without a word after which holds are lost
+  std::uint64_t history = 0;         // another one where the store was restored from a backup
 };
 /// The reason why somebody does not get in, or has to leave.
 enum class Parting : std::uint8_t {

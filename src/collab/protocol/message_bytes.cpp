@@ -54,7 +54,7 @@ class MessageWriter {
     const auto token = text(it.token), design = text(it.design), key = text(it.client_key),
                name = text(it.name), program = text(it.program);
     return as_content(flat::CreateHello(builder_, it.least_version, it.most_version, token, design, key, name,
-                                        it.colour, program, it.has_world, it.have));
+                                        it.colour, program, it.has_world, it.have, it.history));
   }
   WrittenContent operator()(const Want& it) {
     return as_content(flat::CreateWant(builder_, it.snapshot, it.offset));
@@ -91,7 +91,7 @@ class MessageWriter {
   WrittenContent operator()(const Welcome& it) {
     return as_content(flat::CreateWelcome(builder_, it.version, it.author, it.last_number,
                                           std::uint8_t(it.role), it.sequence, it.durable, it.loads,
-                                          it.snapshot, it.snapshot_bytes, it.lease));
+                                          it.snapshot, it.snapshot_bytes, it.lease, it.history));
   }
   WrittenContent operator()(const Refused& it) {
     return as_content(flat::CreateRefused(builder_, text(it.why), std::uint8_t(it.code)));
@@ -171,7 +171,7 @@ class MessageReader {
   ClientMessage operator()(const flat::Hello& it) {
     return Hello{it.least_version(),    it.most_version(), text(it.token()), text(it.design()),
                  text(it.client_key()), text(it.name()),   it.colour(),      text(it.program()),
-                 it.has_world(),        it.have()};
+                 it.has_world(),        it.have(),         it.history()};
   }
   ClientMessage operator()(const flat::Want& it) { return Want{it.snapshot(), it.offset()}; }
   ClientMessage operator()(const flat::Loaded& it) { return Loaded{it.snapshot()}; }
@@ -188,8 +188,9 @@ class MessageReader {
   ClientMessage operator()(const flat::Bye&) { return Bye{}; }
 
   ServerMessage operator()(const flat::Welcome& it) {
-    return Welcome{it.version(), it.author(), it.last_number(), role(it.role()),     it.sequence(),
-                   it.durable(), it.loads(),  it.snapshot(),    it.snapshot_bytes(), it.lease()};
+    return Welcome{it.version(),        it.author(),  it.last_number(), role(it.role()),
+                   it.sequence(),       it.durable(), it.loads(),       it.snapshot(),
+                   it.snapshot_bytes(), it.lease(),   it.history()};
   }
   ServerMessage operator()(const flat::Refused& it) { return Refused{text(it.why()), parting(it.code())}; }
   ServerMessage operator()(const flat::Piece& it) {
@@ -338,16 +339,9 @@ base::Result<std::string_view> next_in_frame(std::string_view& frame) {
   return message;
 }
 
-std::string role_name(Role role) {
-  switch (role) {
-    case Role::View:
-      return "view";
-    case Role::Edit:
-      return "edit";
-    case Role::Own:
-      return "own";
-  }
-  return "";
+std::string_view role_name(Role role) {
+  constexpr std::string_view kNames[] = {"view", "edit", "own"};
+  return kNames[std::size_t(role)];
 }
 
 }  // namespace icome::collab

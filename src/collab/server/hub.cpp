@@ -32,10 +32,11 @@ struct Opening {
   Parting code = Parting::Other;
 };
 
-base::Result<RoomStart> read_start(OpLog& log, const std::string& design, std::uint64_t fence) {
+base::Result<RoomStart> read_start(OpLog& log, const std::string& design, std::uint64_t fence,
+                                   std::uint64_t history) {
   auto snapshot = log.snapshot(design);
   if (!snapshot) return tl::unexpected(snapshot.error());
-  RoomStart start{design, fence, std::move(*snapshot), {}};
+  RoomStart start{design, fence, history, std::move(*snapshot), {}};
   std::uint64_t after = start.snapshot ? start.snapshot->sequence : 0;
   while (true) {
     auto entries = log.read_from(design, after, kReadAtOnce);
@@ -59,7 +60,7 @@ Opening open_from(OpLog& log, const std::string& design, const HubSettings& sett
   if (!*found) return failed({fmt::format("There is no design \"{}\" here.", design)}, Parting::NoDesign);
   const auto lease = log.lease(design, settings.holder, settings.design_lease);
   if (!lease) return failed(lease.error(), Parting::Other);
-  const auto start = read_start(log, design, lease->fence);
+  const auto start = read_start(log, design, lease->fence, (*found)->history);
   if (!start) return failed(start.error(), Parting::Other);
   auto room = Room::open(*start, settings.room, factory);
   if (!room) return failed(room.error(), Parting::Other);
@@ -239,7 +240,7 @@ void Hub::join(const OpenDesignPointer& design, const Joining& joining, const Au
   const Hello& hello = joining.hello;
   design->room->join(joining.link,
                      {author.author, author.last_number, joining.invitation.role, hello.name, hello.colour,
-                      hello.has_world, hello.have},
+                      hello.has_world, hello.have, hello.history},
                      now_);
   note("join", link, hello.program);
   stir(design);

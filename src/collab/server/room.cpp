@@ -40,6 +40,7 @@ base::Result<std::unique_ptr<Room>> Room::open(const RoomStart& start, const Roo
 }
 
 base::Result<void> Room::replay(const RoomStart& start) {
+  history_ = start.history;
   if (start.snapshot) {
     auto world = world_from_bytes(start.snapshot->bytes, factory_);
     if (!world) return tl::unexpected(world.error());
@@ -91,10 +92,11 @@ void Room::welcome(Member& member, bool may_resume) {
   message.role = who.role;
   message.sequence = sequence_;
   message.durable = durable_;
+  message.history = history_;
   message.lease = std::uint32_t(settings_.lease);
   const bool tail_begins_in_time =
       who.have == sequence_ || (!tail_.empty() && tail_.front().sequence <= who.have + 1);
-  if (may_resume && who.has_world && who.have <= durable_ && tail_begins_in_time) {
+  if (may_resume && who.has_world && who.history == history_ && who.have <= durable_ && tail_begins_in_time) {
     member.heard = who.have;
     member.loads.reset();
   } else {

@@ -36,6 +36,7 @@ struct RoomSettings {
 struct RoomStart {
   std::string design = {};
   std::uint64_t fence = 0;                // of the server's lease of the design; at most 2^31
+  std::uint64_t history = 0;              // DesignRow::history
   std::optional<Snapshot> snapshot = {};  // world_to_bytes; nothing: the design began empty
   std::vector<LogEntry> entries = {};     // behind the snapshot
 };
@@ -47,8 +48,9 @@ struct Arrival {
   Role role = Role::View;
   std::string name = {};
   std::uint32_t colour = 0;
-  bool has_world = false;
+  bool has_world = false;  // of the edit `have` of the history `history`
   std::uint64_t have = 0;
+  std::uint64_t history = 0;
 };
 
 /// One design that people work on: puts their edits in one order, has its floor, and knows what each client
@@ -182,6 +184,7 @@ class Room {
   world::World world_;
   std::uint64_t sequence_ = 0;
   std::uint64_t durable_ = 0;
+  std::uint64_t history_ = 0;
   std::uint64_t epoch_ = 0;  // fences of holds of this room's life are at least this
   Floor floor_;
   std::deque<TailEdit> tail_;  // the newest edits, in order

@@ -13,9 +13,9 @@ namespace icome::collab {
 struct LogEntry {
   std::uint64_t sequence = 0;  // from 1, without gaps
   std::uint32_t author = 0;    // who made it; OpLog::author gives these numbers
-  std::uint64_t number = 0;    // the author's own count of what it has sent, rising; 0: nobody counted
-  std::int64_t at = 0;         // ms since 1970 (UTC)
-  std::string edit = {};       // world::to_bytes
+  std::uint64_t number = 0;  // the author's own count of what it has sent, rising, < 2^63; 0: nobody counted
+  std::int64_t at = 0;       // ms since 1970 (UTC)
+  std::string edit = {};     // world::to_bytes
 
   bool operator==(const LogEntry&) const = default;
 };
@@ -26,11 +26,17 @@ struct DesignRow {
   std::uint64_t sequence = 0;           // of its last edit; 0: none yet
   std::uint64_t snapshot_sequence = 0;  // of its newest snapshot; 0: none
   std::uint64_t bytes = 0;              // of its snapshot and the edits behind it
+  /// A number that another history of the design does not have: it is made anew when a store is restored from
+  /// a backup, and when a design is created under a name that was used before. What somebody knows of the
+  /// design under another number, sequences above all, says nothing about this one.
+  std::uint64_t history = 0;
+  std::string holder = {};      // who took its lease last; empty: nobody, or it was given back
+  std::int64_t lease_ends = 0;  // of that lease, ms since 1970
 };
 
 /// The world of a design after the edit `sequence`, as bytes of whoever saved it.
 struct Snapshot {
-  std::uint64_t sequence = 0;
+  std::uint64_t sequence = 0;  // from 1: before the first edit every world is empty
   std::string bytes = {};
 };
 
@@ -53,8 +59,9 @@ struct AuthorRow {
   std::uint64_t last_number = 0;  // of the author's last edit in the log; 0: none
 };
 
-/// The reason why a batch was not appended.
-enum class AppendProblem { Fenced, WrongSequence, NoDesign, Store };
+/// The reason why a batch was not appended. Malformed: its sequences have gaps, or something in it is larger
+/// than a log takes. Store: the disk or the database failed, and none of the batches of the call is there.
+enum class AppendProblem { Fenced, WrongSequence, NoDesign, Malformed, Store };
 struct AppendError {
   AppendProblem problem = AppendProblem::Store;
   std::string message = {};  // a sentence
@@ -74,39 +81,42 @@ class OpLog {
   /// An empty design. Fails where there is one of that name.
   virtual base::Result<void> create(const std::string& design) = 0;
 
-  /// Takes the lease of a design for `milliseconds` from now, or makes the holder's own longer, which keeps
-  /// its fence. Fails while another holder has it.
+  /// Takes the lease of a design for `milliseconds` (> 0) from now, or makes the holder's own longer, which
+  /// keeps its fence, also after its end where nobody else took it. Fails while another holder has it: find()
+  /// tells who. `holder` (not empty) names one run of one server.
   virtual base::Result<DesignLease> lease(const std::string& design, const std::string& holder,
                                           std::int64_t milliseconds) = 0;
-  /// Gives the lease back; nothing happens where `holder` does not have it.
+  /// Gives the lease back: its fence is old from now on. Nothing happens where `holder` does not have it.
   virtual base::Result<void> release(const std::string& design, const std::string& holder) = 0;
 
   /// Appends all batches in one commit (group commit). Each batch is appended whole or not at all, whatever
-  /// becomes of the others: the result has one entry for each. Fenced: the fence is not that of the newest
-  /// lease. WrongSequence: the design's last edit is another one.
+  /// becomes of the others (but for Store): the result has one entry for each. Batches of one design count
+  /// one after the other. Fenced: the fence is not that of the newest lease, or that was given back.
+  /// WrongSequence: the design's last edit is another one.
   virtual std::vector<std::optional<AppendError>> append(std::span<const Append> batches) = 0;
 
   /// The edits behind `after`, in order, at least one where there is one and then so many that their bytes
-  /// stay within `most_bytes`. Fails where edits behind `after` are not kept any more: a snapshot stands for
-  /// them.
+  /// stay within `most_bytes`; none where `after` is the last one or above it. Fails where edits behind
+  /// `after` are not kept any more: a snapshot stands for them.
   virtual base::Result<std::vector<LogEntry>> read_from(const std::string& design, std::uint64_t after,
                                                         std::uint64_t most_bytes) = 0;
 
   /// The newest snapshot; nothing before the first.
   virtual base::Result<std::optional<Snapshot>> snapshot(const std::string& design) = 0;
   /// Saves a snapshot, and forgets older ones and the edits up to `keep_after` (<= its sequence) once it is
-  /// durable. Fails, changing nothing, for an older fence and for a sequence that the design has not reached.
+  /// durable. Fails, changing nothing, for an older fence, for a sequence that the design has not reached,
+  /// and where there is a newer snapshot.
   virtual base::Result<void> save_snapshot(const std::string& design, std::uint64_t fence,
                                            const Snapshot& snapshot, std::uint64_t keep_after) = 0;
 
-  /// The author of a design with this key, a new one where there is none.
+  /// The author of a design with this key (any bytes), a new one where there is none.
   virtual base::Result<AuthorRow> author(const std::string& design, const std::string& key) = 0;
 
-  /// Ends an invitation, by its id, for ever.
+  /// Ends an invitation, by its id, for ever. Nothing happens where that was done before.
   virtual base::Result<void> revoke(const std::string& invitation) = 0;
-  /// All that were ended.
+  /// All that were ended, in that order.
   virtual base::Result<std::vector<std::string>> revoked() = 0;
-  /// A number that changes whenever anybody revokes; costs next to nothing to ask.
+  /// A number that changes whenever anybody revokes, in this process or another; costs microseconds to ask.
   virtual base::Result<std::uint64_t> revoked_version() = 0;
 };
 

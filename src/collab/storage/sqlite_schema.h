@@ -1,0 +1,13 @@
+#pragma once
+#include "collab/storage/sqlite_database.h"
+
+namespace icome::collab {
+
+/// Fails, naming the file, where it is no store of this version: another program's, a newer one, or damaged.
+base::Result<void> demand_store(const SqliteDatabase& database);
+
+/// Makes an empty file a store, in the mode in which a commit needs one write to the disk (WAL); fails as
+/// demand_store() does for what is another program's. Several processes may do so at once.
+base::Result<void> make_store(const SqliteDatabase& database);
+
+}  // namespace icome::collab

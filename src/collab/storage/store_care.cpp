@@ -1,0 +1,232 @@
+#include "collab/storage/store_care.h"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include "base/shown_text.h"
+#include "collab/storage/sqlite_schema.h"
+#include "io/open_file.h"
+
+namespace icome::collab {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A rule that a store keeps: the query gives the name of each design that breaks it, and a number.
+struct StoreRule {
+  const char* broken_by;
+  const char* finding;
+};
+
+constexpr StoreRule kStoreRules[] = {
+    {"SELECT name, count(edits.sequence) FROM designs LEFT JOIN edits ON edits.design = id GROUP BY id "
+     "HAVING count(edits.sequence) <> designs.sequence - kept_after OR min(edits.sequence) <> kept_after + 1 "
+     "OR "
+     "max(edits.sequence) <> designs.sequence",
+     "{}: edits are missing or too many; {} are there."},
+    {"SELECT name, kept_after FROM designs WHERE kept_after > snapshot_sequence OR snapshot_sequence > "
+     "sequence",
+     "{}: the edits up to {} are gone, and no snapshot stands for them."},
+    {"SELECT name, snapshot_sequence FROM designs LEFT JOIN snapshots ON design = id "
+     "WHERE coalesce(snapshots.sequence, 0) <> snapshot_sequence",
+     "{}: the snapshot of {} is not there."},
+    {"SELECT name, bytes FROM designs WHERE bytes <> (SELECT coalesce(sum(length(edit)), 0) FROM edits WHERE "
+     "design = id AND sequence > snapshot_sequence) + (SELECT coalesce(sum(length(snapshots.bytes)), 0) FROM "
+     "snapshots WHERE design = id)",
+     "{}: has another size than the {} bytes that were counted."},
+    {"SELECT name, author FROM authors JOIN designs ON id = design WHERE last_number < (SELECT "
+     "coalesce(max(number), 0) FROM edits WHERE edits.design = authors.design AND edits.author = "
+     "authors.author)",
+     "{}: an edit of author {} is newer than what was noted for that author."},
+};
+
+base::Result<void> add_findings_of_file(const SqliteDatabase& database, std::vector<std::string>& findings) {
+  auto statement = database.prepare("PRAGMA integrity_check(20)");
+  if (!statement) return tl::unexpected(statement.error());
+  SqliteRun run = statement->run();
+  auto more = run.next();
+  for (; more && *more; more = run.next()) {
+    const std::string found = run.bytes(0);
+    if (found != "ok") findings.push_back("The file is damaged: " + found);
+  }
+  if (!more) return tl::unexpected(more.error());
+  const auto strays = database.number("SELECT count(*) FROM pragma_foreign_key_check");
+  if (!strays) return tl::unexpected(strays.error());
+  if (*strays > 0) findings.push_back(fmt::format("{} rows belong to no design.", *strays));
+  return {};
+}
+
+base::Result<void> add_findings_of_rule(const SqliteDatabase& database, const StoreRule& rule,
+                                        std::vector<std::string>& findings) {
+  auto statement = database.prepare(rule.broken_by);
+  if (!statement) return tl::unexpected(statement.error());
+  SqliteRun run = statement->run();
+  auto more = run.next();
+  for (; more && *more; more = run.next())
+    findings.push_back(
+        fmt::format(fmt::runtime(rule.finding), base::shown_text(run.bytes(0)), run.integer(1)));
+  if (!more) return tl::unexpected(more.error());
+  return {};
+}
+
+fs::path with_ending(const fs::path& path, std::string_view ending) {
+  fs::path result = path;
+  result += ending;
+  return result;
+}
+
+/// A copy of a database that is written beside its path, with a name that io::NewFile knows. Removes what is
+/// left of it.
+class CopyBeside {
+ public:
+  explicit CopyBeside(const fs::path& path)
+      : path_(path), beside_(with_ending(path, fmt::format(".part-{}", ::getpid()))) {
+    remove();
+  }
+  CopyBeside(const CopyBeside&) = delete;
+  CopyBeside& operator=(const CopyBeside&) = delete;
+  ~CopyBeside() { remove(); }
+
+  /// Copies a store, and runs `change` on the copy before it gets its last form: one file, without a log of
+  /// writes.
+  base::Result<void> make(const fs::path& from, const char* change);
+  /// Gives the copy the name of what it is a copy for.
+  base::Result<void> take_place();
+
+ private:
+  void remove() const {
+    std::error_code ignored;
+    for (const char* ending : {"", "-wal", "-shm", "-journal"})
+      fs::remove(with_ending(beside_, ending), ignored);
+  }
+  fs::path path_;
+  fs::path beside_;
+};
+
+base::Result<void> copy_pages(const SqliteDatabase& from, const SqliteDatabase& to) {
+  sqlite3_backup* const copying = sqlite3_backup_init(to.handle(), "main", from.handle(), "main");
+  if (copying == nullptr) return tl::unexpected(sqlite_error(sqlite3_errcode(to.handle()), to.path()));
+  const int code = sqlite3_backup_step(copying, -1);  // all in one go, so that it is the state of one moment
+  sqlite3_backup_finish(copying);
+  if (code == SQLITE_DONE) return {};
+  const bool is_source = sqlite3_errcode(from.handle()) == code;
+  return tl::unexpected(sqlite_error(code, is_source ? from.path() : to.path()));
+}
+
+base::Result<void> CopyBeside::make(const fs::path& from, const char* change) {
+  const auto source = SqliteDatabase::open(from, SqliteDatabase::Use::Change);
+  if (!source) return tl::unexpected(source.error());
+  if (const auto good = demand_store(*source); !good) return good;
+  {
+    const auto copy = SqliteDatabase::open(beside_, SqliteDatabase::Use::ChangeOrCreate);
+    if (!copy) return tl::unexpected(copy.error());
+    if (const auto copied = copy_pages(*source, *copy); !copied) return copied;
+    const auto mode = copy->text("PRAGMA journal_mode = DELETE");
+    if (!mode) return tl::unexpected(mode.error());
+    if (const auto changed = copy->execute(change); !changed) return changed;
+  }
+  const auto file = io::OpenFile::open(beside_, io::OpenFile::Use::Change);
+  if (!file) return tl::unexpected(file.error());
+  return file->sync();
+}
+
+base::Result<void> CopyBeside::take_place() {
+  std::error_code error;
+  fs::rename(beside_, path_, error);
+  if (error) return base::fail(fmt::format("{}: cannot be written ({}).", path_.string(), error.message()));
+  io::sync_folder_of(path_);
+  return {};
+}
+
+/// A name for a database that gives its place to another one.
+fs::path free_name_beside(const fs::path& database) {
+  std::error_code error;
+  for (int i = 1;; ++i) {
+    fs::path name = with_ending(database, i == 1 ? ".before-restore" : fmt::format(".before-restore-{}", i));
+    if (!fs::exists(name, error)) return name;
+  }
+}
+
+/// Brings all of a database into its one file; fails where somebody uses it. A damaged one stays as it is.
+base::Result<void> fold_unless_damaged(const fs::path& path) {
+  const auto database = SqliteDatabase::open(path, SqliteDatabase::Use::Change);
+  if (!database) return {};
+  // Closing would bring the log of writes into the file, or drop it, also where both are damaged.
+  sqlite3_db_config(database->handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  const auto good = demand_store(*database);
+  const auto mode = good ? database->text("PRAGMA journal_mode = DELETE") : base::Result<std::string>();
+  const bool is_busy = (sqlite3_errcode(database->handle()) & 0xff) == SQLITE_BUSY;
+  if (is_busy || (mode && *mode == "wal"))
+    return base::fail(path.string() +
+                      ": somebody uses this store. End the server and what else uses it, then try again.");
+  return {};
+}
+
+/// Gives a database another name, besides its own, so that there is one at its place at any time.
+base::Result<fs::path> keep_former(const fs::path& database) {
+  std::error_code error;
+  if (!fs::exists(database, error)) return fs::path();
+  if (const auto folded = fold_unless_damaged(database); !folded) return tl::unexpected(folded.error());
+  fs::path kept = free_name_beside(database);
+  fs::create_hard_link(database, kept, error);
+  // Only a damaged database still has a log of writes, which would be taken for the new one's.
+  const fs::path writes = with_ending(database, "-wal");
+  if (!error && fs::exists(writes, error)) fs::rename(writes, with_ending(kept, "-wal"), error);
+  if (error)
+    return base::fail(fmt::format("{}: what was there before cannot be kept ({}), so nothing was restored.",
+                                  kept.string(), error.message()));
+  fs::remove(with_ending(database, "-shm"), error);
+  return kept;
+}
+
+}  // namespace
+
+base::Result<std::vector<std::string>> check_store(const fs::path& path) {
+  const auto database = SqliteDatabase::open(path, SqliteDatabase::Use::Change);
+  if (!database) return tl::unexpected(database.error());
+  std::vector<std::string> findings;
+  if (const auto good = demand_store(*database); !good) {
+    if ((sqlite3_errcode(database->handle()) & 0xff) != SQLITE_CORRUPT) return tl::unexpected(good.error());
+    findings.push_back(good.error().message);
+    return findings;
+  }
+  const auto checked = database->transact("BEGIN", [&]() -> base::Result<void> {
+    if (const auto file = add_findings_of_file(*database, findings); !file) return file;
+    for (const StoreRule& rule : kStoreRules)
+      if (const auto kept = add_findings_of_rule(*database, rule, findings); !kept) return kept;
+    return {};
+  });
+  if (!checked) findings.push_back(checked.error().message);  // damaged such that the check could not go on
+  return findings;
+}
+
+base::Result<void> backup_store(const fs::path& database, const fs::path& to, bool may_replace) {
+  std::error_code error;
+  if (!may_replace && fs::exists(to, error))
+    return base::fail(to.string() +
+                      ": is there already. Choose another name, or say that it may be replaced.");
+  CopyBeside copy(to);
+  const auto made = copy.make(database, "");
+  return made ? copy.take_place() : made;
+}
+
+base::Result<fs::path> restore_store(const fs::path& backup, const fs::path& database) {
+  const auto findings = check_store(backup);
+  if (!findings) return tl::unexpected(findings.error());
+  if (!findings->empty())
+    return base::fail(fmt::format("{}: this backup has faults, so nothing was restored. {}", backup.string(),
+                                  findings->front()));
+  CopyBeside copy(database);
+  const auto made = copy.make(backup,
+                              "UPDATE designs SET holder = '', lease_ends = 0, lease_length = 0, history = "
+                              "max(1, abs(random() >> 1))");
+  if (!made) return tl::unexpected(made.error());
+  const auto kept = keep_former(database);
+  if (!kept) return kept;
+  const auto placed = copy.take_place();
+  if (!placed) return tl::unexpected(placed.error());
+  return kept;
+}
+
+}  // namespace icome::collab

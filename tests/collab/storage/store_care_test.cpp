@@ -1,0 +1,205 @@
+#include "collab/storage/store_care.h"
+
+#include <sqlite3.h>
+
+#include "collab/storage/sample_log.h"
+#include "files/sample_files.h"
+#include "memory_place.h"
+
+namespace icome::collab {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A store with two designs: "a" of `edits` edits and a snapshot, and "b" without any.
+class StoreCareTest : public testing::Test {
+ protected:
+  files::ScratchFolder folder_{memory_place()};
+  fs::path path_ = folder_.path() / "designs.sqlite";
+  fs::path backup_ = folder_.path() / "backup.sqlite";
+
+  void make(std::size_t edits = 50) const {
+    SqliteOpLog log = good(SqliteOpLog::open(path_));
+    for (const char* name : {"a", "b"}) good(log.create(name));
+    good(log.author("a", "key"));
+    const std::uint64_t fence = good(log.lease("a", "server", 60'000)).fence;
+    ASSERT_FALSE(append_to(log, "a", 0, fence, sample_entries(0, edits, 300)));
+    good(log.save_snapshot("a", fence, {10, "a world"}, 5));
+  }
+  void change(const std::string& sql) const {
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(path_.c_str(), &database), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK)
+        << sqlite3_errmsg(database);
+    sqlite3_close(database);
+  }
+  /// Overwrites a page, counted from 1.
+  void spoil(int page) const {
+    std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp((page - 1) * 4096);
+    file << std::string(2000, '\x5a');
+  }
+  std::size_t files() const { return std::size_t(std::distance(fs::directory_iterator(folder_.path()), {})); }
+};
+
+TEST_F(StoreCareTest, FindsNothingWhereAllIsWell) {
+  make();
+  EXPECT_EQ(good(check_store(path_)), std::vector<std::string>{});
+  SqliteOpLog serving = good(SqliteOpLog::open(path_));
+  EXPECT_EQ(good(check_store(path_)), std::vector<std::string>{}) << "also while somebody serves";
+  EXPECT_FALSE(check_store(folder_.path() / "missing"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "missing"));
+}
+
+/// A fault that is planted, and what must be said of it.
+struct PlantedFault {
+  const char* sql;
+  const char* finding;
+};
+
+class PlantedFaultTest : public StoreCareTest, public testing::WithParamInterface<PlantedFault> {};
+
+TEST_P(PlantedFaultTest, IsFound) {
+  make();
+  change(GetParam().sql);
+  const auto findings = good(check_store(path_));
+  EXPECT_NE(std::find(findings.begin(), findings.end(), GetParam().finding), findings.end())
+      << testing::PrintToString(findings);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, PlantedFaultTest,
+    testing::Values(PlantedFault{"DELETE FROM edits WHERE sequence = 20",
+                                 "a: edits are missing or too many; 44 are there."},
+                    PlantedFault{"DELETE FROM edits WHERE sequence = 50",
+                                 "a: edits are missing or too many; 44 are there."},
+                    PlantedFault{"DELETE FROM edits WHERE sequence = 6",
+                                 "a: edits are missing or too many; 44 are there."},
+                    PlantedFault{"UPDATE edits SET sequence = 60 WHERE sequence = 30",
+                                 "a: edits are missing or too many; 45 are there."},
+                    PlantedFault{"UPDATE edits SET design = 2 WHERE sequence = 6",
+                                 "b: edits are missing or too many; 1 are there."},
+                    PlantedFault{"UPDATE designs SET sequence = 51 WHERE id = 1",
+                                 "a: edits are missing or too many; 45 are there."},
+                    PlantedFault{"UPDATE designs SET kept_after = 20 WHERE id = 1",
+                                 "a: the edits up to 20 are gone, and no snapshot stands for them."},
+                    PlantedFault{"DELETE FROM snapshots", "a: the snapshot of 10 is not there."},
+                    PlantedFault{"UPDATE snapshots SET sequence = 9", "a: the snapshot of 10 is not there."},
+                    PlantedFault{"UPDATE edits SET edit = x'00' WHERE sequence = 11",
+                                 "a: has another size than the 12007 bytes that were counted."},
+                    PlantedFault{"UPDATE authors SET last_number = 49",
+                                 "a: an edit of author 1 is newer than what was noted for that author."},
+                    PlantedFault{"INSERT INTO edits VALUES (7, 1, 1, 1, 1, x'00')",
+                                 "1 rows belong to no design."}));
+
+TEST_F(StoreCareTest, FindsEveryPageThatIsOverwritten) {
+  make(200);
+  const std::string whole = bytes_in(path_);
+  const int pages = int(whole.size() / 4096);
+  ASSERT_GT(pages, 15);
+  for (int page = 1; page <= pages; ++page) {
+    spoil(page);
+    const auto findings = check_store(path_);
+    EXPECT_TRUE(!findings || !findings->empty()) << "page " << page;
+    folder_.write("designs.sqlite", whole);
+  }
+}
+
+TEST_F(StoreCareTest, FindsAFileThatIsCutShort) {
+  make(200);
+  fs::resize_file(path_, fs::file_size(path_) - 3 * 4096);
+  EXPECT_FALSE(good(check_store(path_)).empty());
+}
+
+TEST_F(StoreCareTest, BacksUpWhileSomebodyServes) {
+  make();
+  SqliteOpLog serving = good(SqliteOpLog::open(path_));
+  const std::uint64_t fence = good(serving.lease("a", "server", 60'000)).fence;
+  ASSERT_FALSE(append_to(serving, "a", 50, fence, sample_entries(50, 5, 300)));
+  good(backup_store(path_, backup_, false));
+  EXPECT_EQ(fs::status(backup_).permissions(), fs::perms(0600));
+  EXPECT_EQ(files(), 4U) << "the store's three and the backup, which is one file";
+  EXPECT_EQ(good(check_store(backup_)), std::vector<std::string>{});
+  SqliteOpLog copy = good(SqliteOpLog::open(backup_));
+  EXPECT_EQ(good(copy.read_from("a", 5, 100'000)), sample_entries(5, 50, 300));
+  EXPECT_EQ(good(copy.find("a")).value().history, good(serving.find("a")).value().history);
+}
+
+TEST_F(StoreCareTest, OverwritesABackupOnlyWhenTold) {
+  make();
+  folder_.write("backup.sqlite", "precious");
+  EXPECT_EQ(sentence_of(backup_store(path_, backup_, false)),
+            backup_.string() + ": is there already. Choose another name, or say that it may be replaced.");
+  EXPECT_EQ(bytes_in(backup_), "precious");
+  good(backup_store(path_, backup_, true));
+  EXPECT_EQ(good(check_store(backup_)), std::vector<std::string>{});
+  EXPECT_FALSE(backup_store(folder_.path() / "missing", folder_.path() / "other", false));
+  EXPECT_FALSE(backup_store(path_, folder_.path() / "no folder" / "other", false));
+  EXPECT_EQ(files(), 2U);
+}
+
+TEST_F(StoreCareTest, RestoresWithAnotherHistory) {
+  make();
+  good(backup_store(path_, backup_, false));
+  std::uint64_t history = 0;
+  {
+    SqliteOpLog log = good(SqliteOpLog::open(path_));
+    history = good(log.find("a")).value().history;
+    const std::uint64_t fence = good(log.lease("a", "server", 60'000)).fence;
+    ASSERT_FALSE(append_to(log, "a", 50, fence, sample_entries(50, 5, 300)));
+  }
+  const fs::path kept = good(restore_store(backup_, path_));
+  EXPECT_EQ(kept, path_.string() + ".before-restore");
+  SqliteOpLog log = good(SqliteOpLog::open(path_));
+  EXPECT_EQ(good(log.read_from("a", 5, 100'000)), sample_entries(5, 45, 300));
+  EXPECT_NE(good(log.find("a")).value().history, history);
+  EXPECT_EQ(good(log.find("a")).value().holder, "");
+  EXPECT_TRUE(log.lease("a", "another server", 1000));
+  SqliteOpLog former = good(SqliteOpLog::open(kept));
+  EXPECT_EQ(good(former.find("a")).value().sequence, 55U);
+}
+
+TEST_F(StoreCareTest, RestoresWhereNothingIsLeft) {
+  make();
+  good(backup_store(path_, backup_, false));
+  fs::remove(path_);
+  EXPECT_EQ(good(restore_store(backup_, path_)), "");
+  EXPECT_EQ(good(good(SqliteOpLog::open(path_)).find("a")).value().sequence, 50U);
+}
+
+TEST_F(StoreCareTest, RestoresOverDamage) {
+  make();
+  good(backup_store(path_, backup_, false));
+  const std::string damaged(5 * 4096, 'x');
+  folder_.write("designs.sqlite", damaged);
+  folder_.write("designs.sqlite-wal", damaged);
+  const fs::path kept = good(restore_store(backup_, path_));
+  EXPECT_EQ(bytes_in(kept), damaged);
+  EXPECT_EQ(bytes_in(kept.string() + "-wal"), damaged);
+  EXPECT_FALSE(fs::exists(path_.string() + "-wal"));
+  EXPECT_EQ(good(check_store(path_)), std::vector<std::string>{});
+  spoil(1);
+  EXPECT_EQ(good(restore_store(backup_, path_)), path_.string() + ".before-restore-2");
+}
+
+TEST_F(StoreCareTest, RestoresNothingThatIsDamagedOrInUse) {
+  make();
+  good(backup_store(path_, backup_, false));
+  {
+    SqliteOpLog serving = good(SqliteOpLog::open(path_));
+    good(serving.create("c"));
+    EXPECT_EQ(
+        sentence_of(restore_store(backup_, path_)),
+        path_.string() + ": somebody uses this store. End the server and what else uses it, then try again.");
+    good(serving.create("d"));
+  }
+  fs::resize_file(backup_, fs::file_size(backup_) - 4096);
+  EXPECT_NE(
+      sentence_of(restore_store(backup_, path_)).find(": this backup has faults, so nothing was restored."),
+      std::string::npos);
+  EXPECT_FALSE(restore_store(folder_.write("text", "no database"), path_));
+  EXPECT_EQ(good(good(SqliteOpLog::open(path_)).designs()).size(), 4U);
+}
+
+}  // namespace
+}  // namespace icome::collab
