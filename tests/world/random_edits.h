@@ -7,7 +7,9 @@ namespace icome::world {
 /// Thinks of edits at random, of every kind, most of which the world allows.
 class RandomEdits {
  public:
-  explicit RandomEdits(std::uint64_t seed) : random_(seed) {}
+  /// New things get ids of this author, from `first` on.
+  explicit RandomEdits(std::uint64_t seed, std::uint32_t author = 0, std::uint64_t first = 1)
+      : random_(seed), ids_(author, first) {}
 
   Edit next(const World& world) {
     switch (random_.index(18)) {

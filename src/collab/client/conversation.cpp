@@ -10,11 +10,10 @@
 namespace icome::collab {
 namespace {
 
-constexpr std::size_t kFrameBytes = 1U << 18U;    // at most so many are begun to be put into one frame
-constexpr std::size_t kPartBytes = 1U << 18U;     // of an edit that is sent in parts
-constexpr std::uint64_t kPieceBytes = 1U << 18U;  // of a snapshot, as servers send them
-constexpr std::uint64_t kPiecesAhead = 3;         // asked for before the first of them has come
-constexpr std::int64_t kUsualLease = 8'000;       // ms
+constexpr std::size_t kFrameBytes = 1U << 18U;  // at most so many are begun to be put into one frame
+constexpr std::size_t kPartBytes = 1U << 18U;   // of an edit that is sent in parts
+constexpr std::uint64_t kWantsAhead = 3;        // parts of a snapshot that are asked for at a time
+constexpr std::int64_t kUsualLease = 8'000;     // ms
 
 }  // namespace
 
@@ -160,10 +159,10 @@ void Conversation::hear(Welcome& message) {
 }
 
 void Conversation::want_pieces() {
-  while (asked_for_ < welcome_->snapshot_bytes &&
-         asked_for_ < snapshot_.size() + kPiecesAhead * kPieceBytes) {
-    queue(Want{welcome_->snapshot, asked_for_});
-    asked_for_ += kPieceBytes;
+  const std::uint64_t total = welcome_->snapshot_bytes;
+  while (asked_for_ < total && asked_for_ + kMostWanted <= snapshot_.size() + kWantsAhead * kMostWanted) {
+    queue(Want{welcome_->snapshot, asked_for_, kMostWanted});
+    asked_for_ += std::min(kMostWanted, total - asked_for_);
   }
 }
 
@@ -175,7 +174,6 @@ void Conversation::hear(Piece& message) {
   if (snapshot_.size() == welcome_->snapshot_bytes) {
     finish_loading();
   } else {
-    asked_for_ = std::max<std::uint64_t>(asked_for_, snapshot_.size());
     want_pieces();
   }
 }

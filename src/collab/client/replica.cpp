@@ -148,6 +148,7 @@ base::Result<void> Replica::ordered(const Ordered& it) {
 }
 
 base::Result<void> Replica::accepted(const Accepted& it) {
+  if (it.sequence <= sequence_) return {};
   if (it.sequence != sequence_ + 1) return differs("the order of edits is not the server's.");
   const auto found = std::ranges::find(pending_, it.number, &Pending::number);
   if (found == pending_.end()) return differs("the server has ordered an edit that is not known here.");

@@ -37,11 +37,13 @@ struct Hello {
   std::uint64_t have = 0;
   std::uint64_t history = 0;  // that the world is of, as Welcome said
 };
-/// Asks for a piece of a snapshot.
+/// Asks for a part of a snapshot, which comes in pieces.
 struct Want {
   std::uint64_t snapshot = 0;
   std::uint64_t offset = 0;  // bytes
+  std::uint64_t bytes = 0;   // at most kMostWanted
 };
+inline constexpr std::uint64_t kMostWanted = 1U << 18U;
 /// The snapshot has been read: now the edits behind it.
 struct Loaded {
   std::uint64_t snapshot = 0;

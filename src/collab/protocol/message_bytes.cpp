@@ -57,7 +57,7 @@ class MessageWriter {
                                         it.colour, program, it.has_world, it.have, it.history));
   }
   WrittenContent operator()(const Want& it) {
-    return as_content(flat::CreateWant(builder_, it.snapshot, it.offset));
+    return as_content(flat::CreateWant(builder_, it.snapshot, it.offset, it.bytes));
   }
   WrittenContent operator()(const Loaded& it) {
     return as_content(flat::CreateLoaded(builder_, it.snapshot));
@@ -173,7 +173,7 @@ class MessageReader {
                  text(it.client_key()), text(it.name()),   it.colour(),      text(it.program()),
                  it.has_world(),        it.have(),         it.history()};
   }
-  ClientMessage operator()(const flat::Want& it) { return Want{it.snapshot(), it.offset()}; }
+  ClientMessage operator()(const flat::Want& it) { return Want{it.snapshot(), it.offset(), it.bytes()}; }
   ClientMessage operator()(const flat::Loaded& it) { return Loaded{it.snapshot()}; }
   ClientMessage operator()(const flat::Submit& it) {
     return Submit{it.number(), it.base(), reader_.items<std::uint64_t>(it.fences()), bytes(it.edit()),

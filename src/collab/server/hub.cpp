@@ -58,6 +58,9 @@ Opening open_from(OpLog& log, const std::string& design, const HubSettings& sett
   const auto found = log.find(design);
   if (!found) return failed(found.error(), Parting::Other);
   if (!*found) return failed({fmt::format("There is no design \"{}\" here.", design)}, Parting::NoDesign);
+  // A lease that an earlier life of this server left behind is not carried on: its holds are gone, and their
+  // fences must not be given again.
+  (void)log.release(design, settings.holder);
   const auto lease = log.lease(design, settings.holder, settings.design_lease);
   if (!lease) return failed(lease.error(), Parting::Other);
   const auto start = read_start(log, design, lease->fence, (*found)->history);

@@ -202,8 +202,12 @@ void Room::handle(Member& member, Want& message) {
                         member.loads == message.snapshot && message.offset < snapshot_.bytes->size();
   // Somebody has come in meanwhile who needed a newer one.
   if (!is_there) return member.loads ? welcome(member, false) : void();
-  tell(member, Piece{message.snapshot, message.offset, snapshot_.bytes->size(),
-                     snapshot_.bytes->substr(message.offset, settings_.piece_bytes)});
+  const std::uint64_t total = snapshot_.bytes->size();
+  const std::uint64_t end = message.offset + std::min({message.bytes, kMostWanted, total - message.offset});
+  for (std::uint64_t at = message.offset; at < end; at += settings_.piece_bytes)
+    tell(member,
+         Piece{message.snapshot, at, total,
+               snapshot_.bytes->substr(at, std::min<std::uint64_t>(settings_.piece_bytes, end - at))});
 }
 
 void Room::handle(Member& member, Loaded& message) {

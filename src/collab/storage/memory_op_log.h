@@ -14,7 +14,7 @@ namespace icome::collab {
 
 /// A log of edits in memory, for tests and simulations, where it outlives the servers that use it as a disk
 /// would. Owns all it holds; it ends with the object.
-class MemoryOpLog final : public OpLog {
+class MemoryOpLog : public OpLog {
  public:
   /// Leases are judged by `clock`, ms since 1970.
   explicit MemoryOpLog(std::function<std::int64_t()> clock = wall_milliseconds) : clock_(std::move(clock)) {}
