@@ -42,6 +42,7 @@ void Conversation::opened(std::int64_t now) {
   hello.has_world = replica_.can_resume() && !needs_anew_;
   hello.have = replica_.durable();
   hello.history = history_;
+  hello.first_pending = replica_.first_pending();
   queue(hello);
 }
 
@@ -181,10 +182,10 @@ void Conversation::hear(Piece& message) {
 void Conversation::finish_loading() {
   auto world = world_from_bytes(std::exchange(snapshot_, {}), factory_);
   if (!world) return begin_anew(world.error());
-  if (const auto done = replica_.begin(std::move(*world), welcome_->snapshot); !done)
+  if (const auto done = replica_.begin(std::move(*world), welcome_->snapshot, welcome_->accepted); !done)
     return begin_anew(done.error());
   needs_anew_ = false;
-  replica_.durable({welcome_->durable});
+  (void)replica_.durable({welcome_->durable});
   queue(Loaded{welcome_->snapshot});
   go_live_if_caught_up();
 }
@@ -230,8 +231,7 @@ void Conversation::hear(Rejected& message) {
 }
 
 void Conversation::hear(Durable& message) {
-  replica_.durable(message);
-  seen_.emplace_back(SeenDurable{message.sequence});
+  seen_.emplace_back(SeenDurable{message.sequence, replica_.durable(message)});
 }
 
 void Conversation::hear(Selected& message) {

@@ -42,6 +42,7 @@ struct SeenEdit {
 /// Everything up to here is durable.
 struct SeenDurable {
   std::uint64_t sequence = 0;
+  std::vector<std::uint64_t> own = {};  // numbers of one's own that have become durable
 };
 struct SeenState {
   ConversationState state = ConversationState::Away;

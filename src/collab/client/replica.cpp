@@ -74,7 +74,7 @@ void Replica::redo_pending(std::size_t from) {
 }
 
 bool Replica::merges_into_last(const world::Edit& edit) const {
-  return !pending_.empty() && !pending_.back().sent && pending_.back().inverse &&
+  return !pending_.empty() && !pending_.back().was_sent && pending_.back().inverse &&
          replaces(pending_.back().edit, edit);
 }
 
@@ -95,14 +95,14 @@ base::Result<std::uint64_t> Replica::perform(const world::Edit& edit, const std:
                        replaces(pending_.back().edit, edit);
   if (!goes_on) done_.push_back({name, {}});
   done_.back().numbers.push_back(number);
-  pending_.push_back({number, name, edit, std::move(fences), sequence_, false, std::move(*inverse)});
+  pending_.push_back({number, name, edit, std::move(fences), sequence_, false, false, std::move(*inverse)});
   return number;
 }
 
 std::optional<Submit> Replica::next_to_send() {
   const auto next = std::ranges::find_if(pending_, [](const Pending& it) { return !it.sent; });
   if (next == pending_.end()) return std::nullopt;
-  next->sent = true;
+  next->sent = next->was_sent = true;
   auto bytes = world::to_bytes(next->edit);
   // perform() takes only what can be written: what cannot would be refused by the server.
   return Submit{next->number, next->base, next->fences, bytes ? std::move(*bytes) : std::string(), 0};
@@ -113,19 +113,42 @@ bool Replica::has_unsent() const {
 }
 
 std::size_t Replica::unacknowledged() const {
-  return pending_.size() + std::size_t(std::ranges::count_if(tentative_, [this](const Tentative& it) {
-           return it.author == author_ && it.number > 0 && author_ != 0;
-         }));
+  return pending_.size() + covered_.size() +
+         std::size_t(std::ranges::count_if(tentative_, [](const Tentative& it) { return it.number > 0; }));
 }
 
-base::Result<void> Replica::begin(world::World world, std::uint64_t sequence) {
-  world_ = std::move(world);
+std::uint64_t Replica::first_pending() const {
+  std::uint64_t first = last_number_ + 1;
+  for (const Pending& it : pending_) first = std::min(first, it.number);
+  for (const Pending& it : covered_) first = std::min(first, it.number);
+  for (const Tentative& it : tentative_)
+    if (it.number > 0) first = std::min(first, it.number);
+  return first;
+}
+
+base::Result<void> Replica::begin(world::World world, std::uint64_t sequence,
+                                  const std::vector<std::uint64_t>& accepted) {
+  for (Tentative& it : tentative_)
+    if (it.number > 0) covered_.push_back(pending_again(std::move(it)));
   tentative_.clear();
+  const auto is_covered = [&](const Pending& it) {
+    return std::ranges::find(accepted, it.number) != accepted.end();
+  };
+  std::ranges::copy_if(pending_, std::back_inserter(covered_), is_covered);
+  std::erase_if(pending_, is_covered);
+  for (const Pending& it : covered_) forget(it.number);
+  world_ = std::move(world);
   has_base_ = true;
   base_ = sequence_ = sequence;
   for (Pending& it : pending_) it.inverse.reset();
   redo_pending();
   return {};
+}
+
+/// An own edit that is to be sent again.
+Replica::Pending Replica::pending_again(Tentative it) {
+  return {it.number, std::move(it.name), std::move(it.edit), std::move(it.fences), it.base,
+          false,     std::nullopt};
 }
 
 base::Result<void> Replica::ordered(const Ordered& it) {
@@ -198,12 +221,17 @@ base::Result<std::optional<Dropped>> Replica::rejected(const Rejected& it) {
   return dropped;
 }
 
-void Replica::durable(const Durable& it) {
+std::vector<std::uint64_t> Replica::durable(const Durable& it) {
+  std::vector<std::uint64_t> own;
   durable_ = std::max(durable_, it.sequence);
   while (!tentative_.empty() && tentative_.front().last <= durable_) {
     base_ = tentative_.front().last;
+    if (tentative_.front().number > 0) own.push_back(tentative_.front().number);
     tentative_.pop_front();
   }
+  if (base_ <= durable_)
+    for (const Pending& covered : std::exchange(covered_, {})) own.push_back(covered.number);
+  return own;
 }
 
 base::Result<std::vector<Dropped>> Replica::settle(std::uint64_t last_number) {
@@ -221,11 +249,11 @@ base::Result<void> Replica::rewind() {
   for (; !tentative_.empty(); tentative_.pop_back()) {
     Tentative& it = tentative_.back();
     if (auto done = take_back(it.inverse); !done) return done;
-    if (it.author != author_ || it.number == 0) continue;
+    if (it.number == 0) continue;
     if (const auto own = own_.find(it.number); own != own_.end()) own->second.sequence = 0;
-    pending_.push_front({it.number, std::move(it.name), std::move(it.edit), std::move(it.fences), it.base,
-                         false, std::nullopt});
+    pending_.push_front(pending_again(std::move(it)));
   }
+  for (; !covered_.empty(); covered_.pop_back()) pending_.push_front(std::move(covered_.back()));
   sequence_ = base_;
   for (Pending& it : pending_) it.sent = false;
   redo_pending();
@@ -271,8 +299,8 @@ base::Result<std::uint64_t> Replica::turn(std::vector<Action>& from, std::vector
   if (!inverse) return stays(inverse.error().message);
   const std::uint64_t number = ++last_number_;
   own_.insert_or_assign(number, Own{*inverse, 0});
-  pending_.push_back(
-      {number, action.name, std::move(edit), std::move(fences), sequence_, false, std::move(*inverse)});
+  pending_.push_back({number, action.name, std::move(edit), std::move(fences), sequence_, false, false,
+                      std::move(*inverse)});
   from.pop_back();
   for (const std::uint64_t old : action.numbers) own_.erase(old);
   to.push_back({action.name, {number}});

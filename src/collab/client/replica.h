@@ -69,6 +69,8 @@ class Replica {
   /// The next edit to send; nothing when all are on their way. It counts as sent.
   std::optional<Submit> next_to_send();
   bool has_unsent() const;
+  /// The lowest number of own edits that are not durable yet; above all where there are none.
+  std::uint64_t first_pending() const;
   /// The last ordered edit, until a durable() covers it; then null.
   const world::Edit* last_ordered() const { return tentative_.empty() ? nullptr : &tentative_.back().edit; }
   /// Own edits that the server has not ordered yet.
@@ -78,13 +80,16 @@ class Replica {
 
   // ---- what the server says; a failure means that the copy differs from the server's: begin() anew
 
-  /// Begins with a snapshot; own pending edits are redone on it.
-  base::Result<void> begin(world::World world, std::uint64_t sequence);
+  /// Begins with a snapshot, which holds the own edits with these numbers; the other pending ones are redone
+  /// on it. What it holds can be taken back no more, as it is not known how.
+  base::Result<void> begin(world::World world, std::uint64_t sequence,
+                           const std::vector<std::uint64_t>& accepted);
   base::Result<void> ordered(const Ordered& it);
   base::Result<void> accepted(const Accepted& it);
   /// Nothing where there is no such edit.
   base::Result<std::optional<Dropped>> rejected(const Rejected& it);
-  void durable(const Durable& it);
+  /// Gives the numbers of own edits that cannot be lost any more from now on.
+  std::vector<std::uint64_t> durable(const Durable& it);
   /// All that the server had ordered when it said welcome is here: own edits up to its `last_number` that
   /// were not among it were refused while nobody listened.
   base::Result<std::vector<Dropped>> settle(std::uint64_t last_number);
@@ -98,7 +103,8 @@ class Replica {
     world::Edit edit;
     std::vector<std::uint64_t> fences;
     std::uint64_t base = 0;
-    bool sent = false;
+    bool sent = false;      // by this connection
+    bool was_sent = false;  // by any: the server may have it as it is
     std::optional<world::Edit> inverse;  // nothing: it does not apply now
   };
   struct Tentative {
@@ -136,6 +142,7 @@ class Replica {
   base::Result<std::uint64_t> turn(std::vector<Action>& from, std::vector<Action>& to,
                                    std::vector<std::uint64_t> fences, std::uint32_t* whose);
   void forget(std::uint64_t number);
+  static Pending pending_again(Tentative it);
   Dropped drop(std::size_t index, const std::string& why, std::uint32_t whose);
 
   world::GeometryFactory factory_;
@@ -149,6 +156,8 @@ class Replica {
   std::uint64_t durable_ = 0;   // that the server has named
   std::deque<Tentative> tentative_;
   std::deque<Pending> pending_;
+  std::vector<Pending>
+      covered_;  // own edits in the snapshot that the world began with, until that is durable
   std::map<std::uint64_t, Own> own_;  // by number
   std::vector<Action> done_, undone_;
   std::unordered_map<Item, std::map<Aspect, Touch>> others_;  // who changed what last, others only

@@ -36,6 +36,8 @@ struct Hello {
   bool has_world = false;       // the client has the world as it was after the edit `have`, which is durable
   std::uint64_t have = 0;
   std::uint64_t history = 0;  // that the world is of, as Welcome said
+  std::uint64_t first_pending =
+      0;  // the lowest number of the client's edits that are not known to be durable
 };
 /// Asks for a part of a snapshot, which comes in pieces.
 struct Want {
@@ -101,10 +103,11 @@ struct Welcome {
   std::uint64_t sequence = 0;  // of the design's last edit
   std::uint64_t durable = 0;   // of the last one on the disk
   bool loads = false;  // the client is to load a snapshot first; else the edits behind `have` follow at once
-  std::uint64_t snapshot = 0;        // its sequence
-  std::uint64_t snapshot_bytes = 0;  // 0: an empty design
-  std::uint32_t lease = 0;           // ms without a word after which holds are lost
-  std::uint64_t history = 0;         // another one where the store was restored from a backup
+  std::uint64_t snapshot = 0;                // its sequence
+  std::uint64_t snapshot_bytes = 0;          // 0: an empty design
+  std::uint32_t lease = 0;                   // ms without a word after which holds are lost
+  std::uint64_t history = 0;                 // another one where the store was restored from a backup
+  std::vector<std::uint64_t> accepted = {};  // numbers of the author's edits that the snapshot holds
 };
 /// The reason why somebody does not get in, or has to leave.
 enum class Parting : std::uint8_t {

@@ -54,7 +54,8 @@ class MessageWriter {
     const auto token = text(it.token), design = text(it.design), key = text(it.client_key),
                name = text(it.name), program = text(it.program);
     return as_content(flat::CreateHello(builder_, it.least_version, it.most_version, token, design, key, name,
-                                        it.colour, program, it.has_world, it.have, it.history));
+                                        it.colour, program, it.has_world, it.have, it.history,
+                                        it.first_pending));
   }
   WrittenContent operator()(const Want& it) {
     return as_content(flat::CreateWant(builder_, it.snapshot, it.offset, it.bytes));
@@ -89,9 +90,10 @@ class MessageWriter {
   WrittenContent operator()(const Bye&) { return as_content(flat::CreateBye(builder_)); }
 
   WrittenContent operator()(const Welcome& it) {
+    const auto accepted = builder_.CreateVector(it.accepted);
     return as_content(flat::CreateWelcome(builder_, it.version, it.author, it.last_number,
                                           std::uint8_t(it.role), it.sequence, it.durable, it.loads,
-                                          it.snapshot, it.snapshot_bytes, it.lease, it.history));
+                                          it.snapshot, it.snapshot_bytes, it.lease, it.history, accepted));
   }
   WrittenContent operator()(const Refused& it) {
     return as_content(flat::CreateRefused(builder_, text(it.why), std::uint8_t(it.code)));
@@ -171,7 +173,7 @@ class MessageReader {
   ClientMessage operator()(const flat::Hello& it) {
     return Hello{it.least_version(),    it.most_version(), text(it.token()), text(it.design()),
                  text(it.client_key()), text(it.name()),   it.colour(),      text(it.program()),
-                 it.has_world(),        it.have(),         it.history()};
+                 it.has_world(),        it.have(),         it.history(),     it.first_pending()};
   }
   ClientMessage operator()(const flat::Want& it) { return Want{it.snapshot(), it.offset(), it.bytes()}; }
   ClientMessage operator()(const flat::Loaded& it) { return Loaded{it.snapshot()}; }
@@ -188,9 +190,10 @@ class MessageReader {
   ClientMessage operator()(const flat::Bye&) { return Bye{}; }
 
   ServerMessage operator()(const flat::Welcome& it) {
-    return Welcome{it.version(),        it.author(),  it.last_number(), role(it.role()),
-                   it.sequence(),       it.durable(), it.loads(),       it.snapshot(),
-                   it.snapshot_bytes(), it.lease(),   it.history()};
+    return Welcome{it.version(),    it.author(),   it.last_number(),
+                   role(it.role()), it.sequence(), it.durable(),
+                   it.loads(),      it.snapshot(), it.snapshot_bytes(),
+                   it.lease(),      it.history(),  reader_.items<std::uint64_t>(it.accepted())};
   }
   ServerMessage operator()(const flat::Refused& it) { return Refused{text(it.why()), parting(it.code())}; }
   ServerMessage operator()(const flat::Piece& it) {

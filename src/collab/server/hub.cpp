@@ -243,7 +243,7 @@ void Hub::join(const OpenDesignPointer& design, const Joining& joining, const Au
   const Hello& hello = joining.hello;
   design->room->join(joining.link,
                      {author.author, author.last_number, joining.invitation.role, hello.name, hello.colour,
-                      hello.has_world, hello.have, hello.history},
+                      hello.has_world, hello.have, hello.history, hello.first_pending},
                      now_);
   note("join", link, hello.program);
   stir(design);

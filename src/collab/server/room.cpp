@@ -70,6 +70,7 @@ void Room::join(LinkId link, const Arrival& arrival, std::int64_t now) {
   author.person = {arrival.author, arrival.name, arrival.colour, arrival.role, true};
   Member& member = members_[link];
   member.who = arrival;
+  member.known_number = author.last_number;
   welcome(member, true);
 
   People everybody;
@@ -102,6 +103,8 @@ void Room::welcome(Member& member, bool may_resume) {
   } else {
     const SharedSnapshot snapshot = snapshot_for_joining();
     message.loads = true;
+    for (const std::uint64_t number : authors_[who.author].accepted)
+      if (number >= who.first_pending) message.accepted.push_back(number);
     message.snapshot = snapshot.sequence;
     message.snapshot_bytes = snapshot.bytes->size();
     member.loads = snapshot.sequence;
@@ -347,7 +350,7 @@ void Room::add_edits(Member& member, std::string& frame) {
   std::size_t index = std::size_t(member.heard + 1 - tail_begin);
   while (index < tail_.size() && frame.size() < settings_.most_frame_bytes) {
     const TailEdit& edit = tail_[index];
-    if (edit.author == member.who.author && edit.number > 0) {
+    if (edit.author == member.who.author && edit.number > member.known_number) {
       if (edit.creates) {
         add_to_frame(frame, to_bytes(ServerMessage(
                                 Ordered{edit.sequence, edit.sequence, edit.author, edit.number, {}, true})));

@@ -51,6 +51,7 @@ struct Arrival {
   bool has_world = false;  // of the edit `have` of the history `history`
   std::uint64_t have = 0;
   std::uint64_t history = 0;
+  std::uint64_t first_pending = 0;  // Hello::first_pending
 };
 
 /// One design that people work on: puts their edits in one order, has its floor, and knows what each client
@@ -115,6 +116,7 @@ class Room {
   struct Member {
     Arrival who;
     std::optional<std::uint64_t> loads;  // the snapshot that it loads; the edits wait
+    std::uint64_t known_number = 0;      // own edits up to this one came by earlier connections
     std::uint64_t heard = 0;             // sequence of the last edit in frames
     std::uint64_t heard_durable = 0;
     std::deque<SharedBytes> waiting;  // messages but edits and presence
@@ -125,8 +127,9 @@ class Room {
     std::optional<std::string> parting;
   };
   struct Author {
-    std::uint64_t last_number = 0;  // also of refused edits
-    std::int64_t last_word = 0;     // ms
+    std::uint64_t last_number = 0;       // also of refused edits
+    std::deque<std::uint64_t> accepted;  // numbers of the last ordered edits
+    std::int64_t last_word = 0;          // ms
     Person person;
     SharedBytes presence;
     std::uint64_t presence_version = 0;

@@ -42,6 +42,8 @@ struct FindWrongId {
   }
 };
 
+constexpr std::size_t kMostAccepted = 8'192;  // numbers that are remembered of an author
+
 bool is_step_of_drag(const world::Edit& edit) {
   return std::holds_alternative<world::PlaceObject>(edit.what) ||
          std::holds_alternative<world::MoveVertices>(edit.what);
@@ -139,6 +141,9 @@ void Room::order(Member& member, const Submit& message, world::Edit edit, std::i
 void Room::append_to_tail(std::uint32_t author, std::uint64_t number, std::string bytes, world::Edit edit) {
   ++sequence_;
   for (const Touched& it : touched_by(edit)) changed_[it.item] = {sequence_, author};
+  std::deque<std::uint64_t>& accepted = authors_[author].accepted;
+  accepted.push_back(number);
+  if (accepted.size() > kMostAccepted) accepted.pop_front();
   const bool creates = edit_word(edit) == "create";
   SharedBytes message = std::make_shared<const std::string>(
       to_bytes(ServerMessage(Ordered{sequence_, sequence_, author, number, std::move(bytes), creates})));
@@ -162,8 +167,7 @@ void Room::floor_follows(const world::Edit& edit) {
 /// each drag its newest step. Gives the index behind them.
 std::size_t Room::add_merged(Member& member, std::size_t index, std::string& frame) {
   std::size_t end = index;
-  while (end < tail_.size() && is_step_of_drag(tail_[end].edit) &&
-         (tail_[end].author != member.who.author || tail_[end].number == 0))
+  while (end < tail_.size() && is_step_of_drag(tail_[end].edit) && tail_[end].author != member.who.author)
     ++end;
   if (end - index < 2) {
     add_to_frame(frame, *tail_[index].message);

@@ -51,7 +51,6 @@ void SimulatedWork::make_client(Client& client, bool same_key) {
   client.talk =
       std::make_unique<Conversation>(address, ClientIdentity{client.key, "Ann", 1, "test"}, factory_);
   client.edits.reset();
-  client.sequences.clear();
   client.link.reset();
   client.up = client.down = {};
   client.next_try = now_ + std::int64_t(random_.index(200));
@@ -172,14 +171,10 @@ void SimulatedWork::deliver(Client& client) {
 
 void SimulatedWork::hear(Client& client) {
   for (const Seen& seen : client.talk->take_seen()) {
-    if (const auto* const edit = std::get_if<SeenEdit>(&seen); edit && edit->number > 0)
-      client.sequences[edit->number] = edit->sequence;
     if (std::holds_alternative<Dropped>(seen)) ++dropped_;
-    const auto* const durable = std::get_if<SeenDurable>(&seen);
-    if (!durable) continue;
-    for (const auto& [number, sequence] : client.sequences)
-      if (sequence <= durable->sequence) acknowledged_.emplace(client.talk->replica().author(), number);
-    std::erase_if(client.sequences, [&](const auto& it) { return it.second <= durable->sequence; });
+    if (const auto* const durable = std::get_if<SeenDurable>(&seen))
+      for (const std::uint64_t number : durable->own)
+        acknowledged_.emplace(client.talk->replica().author(), number);
   }
 }
 

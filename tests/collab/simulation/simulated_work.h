@@ -79,7 +79,6 @@ class SimulatedWork {
     std::int64_t next_try = 0;
     std::unique_ptr<world::RandomEdits> edits;
     Wire up, down;
-    std::map<std::uint64_t, std::uint64_t> sequences;  // of own edits, by number
     std::uint64_t generation = 0;
   };
 

@@ -33,11 +33,14 @@ TEST(SimulatedWork, EndsWellWhateverHappens) {
   const char* const only = std::getenv("ICOME_SIMULATION_SEED");
   const std::uint64_t first = only ? std::strtoull(only, nullptr, 10) : 1;
   const std::uint64_t count = only ? 1 : std::uint64_t(repeats(10'000));
+  constexpr int kMostFaults = 10;
+  int faults = 0;
   std::uint64_t ordered = 0, restarts = 0, dropped = 0;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     SimulatedWork work(seed, weather_of(seed), signer);
     const std::string fault = work.run();
-    ASSERT_EQ(fault, "") << "seed " << seed;
+    EXPECT_EQ(fault, "") << "seed " << seed;
+    if (!fault.empty() && ++faults == kMostFaults) break;
     ordered += work.ordered();
     restarts += work.restarts();
     dropped += work.dropped();
