@@ -147,8 +147,8 @@ base::Result<void> Replica::begin(world::World world, std::uint64_t sequence,
 
 /// An own edit that is to be sent again.
 Replica::Pending Replica::pending_again(Tentative it) {
-  return {it.number, std::move(it.name), std::move(it.edit), std::move(it.fences), it.base,
-          false,     std::nullopt};
+  return {it.number, std::move(it.name), std::move(it.edit), std::move(it.fences), it.base, false,
+          true,      std::nullopt};
 }
 
 base::Result<void> Replica::ordered(const Ordered& it) {
