@@ -34,7 +34,8 @@ class StoreWriter {
  private:
   /// Opens the store, writes and closes it; false where that failed.
   bool write_for_a_while() {
-    auto log = SqliteOpLog::open(path_);
+    // The true time would write other bytes, or the same, in each run.
+    auto log = SqliteOpLog::open(path_, [this] { return ++now_; });
     if (!log) return false;
     const auto lease = log->lease("a", "writer", 1000);
     if (!lease) return false;
@@ -68,6 +69,7 @@ class StoreWriter {
   std::filesystem::path path_;
   base::Random& random_;
   BeforeLoss before_;
+  std::int64_t now_ = 0;
 };
 
 /// What is lost or wrong in the store after the power came back; empty if nothing.
