@@ -393,6 +393,7 @@ class WebLink : public std::enable_shared_from_this<WebLink> {
   void read_next();
   void on_read(LinkError error, std::size_t size);
   void on_sent(LinkError error);
+  void say_goodbye();
   std::string open_trouble(LinkError error);
   void over(const std::string& why);
 
@@ -722,7 +723,7 @@ void WebLink::send(SharedBytes frame) {
 
 void WebLink::on_sent(LinkError error) {
   is_sending_ = false;
-  if (state_ != State::Open) return;
+  if (state_ == State::Closing) return say_goodbye();
   if (error) return over(open_trouble(error));
   shares_.events.sent(id_);
 }
@@ -734,7 +735,11 @@ void WebLink::close(const std::string& why) {
   why_ = why;
   if (!was_open) return asio::post(shares_.context, [self = shared_from_this()] { self->over(self->why_); });
   arm(kClosingTime);
-  const std::string_view reason = fitting_reason(why);
+  if (!is_sending_) say_goodbye();  // or else it would come between two pieces of a frame
+}
+
+void WebLink::say_goodbye() {
+  const std::string_view reason = fitting_reason(why_);
   const websocket::close_reason last_words(websocket::close_code::normal,
                                            beast::string_view(reason.data(), reason.size()));
   stream_.async_close(last_words, [self = shared_from_this()](LinkError /*any*/) { self->over(self->why_); });
@@ -828,9 +833,10 @@ void WebLink::ping() {
 
 class LinkLoop::Parts {
  public:
-  explicit Parts(LinkEvents& events) : shares(events) {}
+  explicit Parts(LinkEvents& events) : shares(events), work(shares.context.get_executor()) {}
 
   LinkShares shares;
+  asio::executor_work_guard<Executor> work;  // run() goes on where nothing is waited for
   std::vector<std::shared_ptr<LinkListener>> listeners;
   std::vector<std::unique_ptr<HttpListener>> http_listeners;
 };
@@ -901,10 +907,8 @@ void LinkLoop::after(std::chrono::nanoseconds delay, std::function<void()> work)
 }
 
 void LinkLoop::run() {
-  asio::io_context& context = parts_->shares.context;
-  const auto guard = asio::make_work_guard(context);
-  context.run();
-  context.restart();
+  parts_->shares.context.run();
+  parts_->shares.context.restart();
 }
 
 void LinkLoop::stop() { parts_->shares.context.stop(); }
