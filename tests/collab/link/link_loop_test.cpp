@@ -461,6 +461,28 @@ TEST_F(LinkTrustTest, PeerThatAnswersPingsStays) {
   EXPECT_TRUE(bench.run_until([&] { return bench.of(link).frames == 1; }));
 }
 
+TEST_F(LinkTrustTest, SendingToWhoReadsNothingStops) {
+  LinkBench bench;
+  Relay relay(bench.loop().listen(listening(Wired::Tls))->port);
+  bench.meanwhile = [&] { relay.pump(); };
+  const LinkId link = bench.loop().connect(connecting(Wired::Tls, Endpoint{"127.0.0.1", relay.port}));
+  ASSERT_TRUE(bench.run_until([&] { return bench.of(link).is_open && bench.accepted().size() == 1; }));
+  const LinkId server = bench.accepted()[0];
+  relay.is_silent = true;
+  // The system keeps what the other side's window lets it send, and little more.
+  constexpr std::size_t kMostFrames = 1000;
+  for (std::size_t i = 0; i < kMostFrames; ++i) bench.send(server, sample(100'000));
+  std::size_t before = 0;
+  ASSERT_TRUE(bench.run_until([&] { return bench.of(server).to_send.size() < kMostFrames - 1; }));
+  do {
+    before = bench.of(server).to_send.size();
+    bench.run_for(100ms);
+  } while (bench.of(server).to_send.size() < before);
+  EXPECT_GT(before, kMostFrames / 2);
+  EXPECT_TRUE(bench.of(server).is_sending);
+  EXPECT_FALSE(bench.of(server).is_over);
+}
+
 TEST_F(LinkTrustTest, PeerThatDoesNotSayGoodbyeIsLeftInASecond) {
   LinkBench bench;
   Relay relay(bench.loop().listen(listening(Wired::Tls))->port);

@@ -20,8 +20,6 @@
 #include <boost/beast/websocket.hpp>
 #include <cassert>
 #include <cstdlib>
-#include <cstring>
-#include <limits>
 #include <new>
 #include <optional>
 #include <unordered_map>
@@ -62,9 +60,6 @@ constexpr std::chrono::milliseconds kRestWithoutDescriptors{100};
 using Scratch = std::array<char, kRecordBytes>;
 
 // ---- A socket as Boost.Beast wants its streams ----
-
-template <typename Handler>
-class EndOperation;
 
 /// A socket with or without TLS for Boost.Beast's algorithms; owns it. It waits until the socket is ready and
 /// then moves bytes by a ByteChannel, so that unlike asio::ssl::stream it needs no buffers while it waits.
@@ -318,6 +313,7 @@ std::string_view fitting_reason(std::string_view text) {
 }
 
 class LinkListener;
+class WebLink;
 
 /// What connections have in common; outlives them, but for what they wait for.
 struct LinkShares {
@@ -327,7 +323,7 @@ struct LinkShares {
   LinkEvents& events;
   Scratch scratch = {};
   std::optional<TlsContext> client_tls = {};  // of the first connection that needs it
-  std::unordered_map<LinkId, std::shared_ptr<class WebLink>> links = {};
+  std::unordered_map<LinkId, std::shared_ptr<WebLink>> links = {};
   LinkId last_id = 0;
 };
 
@@ -676,13 +672,14 @@ std::string WebLink::tls_trouble(LinkError error) {
 void WebLink::belong() { wire().belong_to(weak_from_this()); }
 
 void WebLink::tune_stream(std::size_t piece_bytes) {
-  stream_.read_message_max(limits_.most_frame_bytes);
+  stream_.read_message_max(std::max<std::size_t>(1, limits_.most_frame_bytes));  // 0 would be any
   stream_.binary(true);
   stream_.auto_fragment(true);
   stream_.write_buffer_bytes(piece_bytes);
 }
 
 void WebLink::opened() {
+  if (state_ != State::Starting) return;  // close() came first
   const Peer peer = {name_, listener_ == nullptr};
   state_ = State::Open;
   was_open_ = true;
