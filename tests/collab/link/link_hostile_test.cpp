@@ -21,20 +21,20 @@ using namespace std::chrono_literals;
 /// A server that strangers find.
 class LinkHostileTest : public testing::Test {
  protected:
-  static void SetUpTestSuite() { folder_ = new CertificateFolder(); }
-  static void TearDownTestSuite() { delete std::exchange(folder_, nullptr); }
+  static void SetUpTestSuite() { certificates = new CertificateFolder(); }
+  static void TearDownTestSuite() { delete std::exchange(certificates, nullptr); }
 
   static ListenSettings with_tls() {
     ListenSettings settings;
-    settings.certificate = folder_->certificate;
-    settings.key = folder_->key;
+    settings.certificate = certificates->certificate;
+    settings.key = certificates->key;
     return settings;
   }
   static ConnectSettings to(const Endpoint& endpoint, bool tls) {
     ConnectSettings settings;
     settings.endpoint = endpoint;
     settings.tls = tls;
-    settings.fingerprint = folder_->fingerprint;
+    settings.fingerprint = certificates->fingerprint;
     return settings;
   }
   /// A request to upgrade with the key of RFC 6455, section 1.3.
@@ -70,10 +70,10 @@ class LinkHostileTest : public testing::Test {
     return bench_.of(bench_.accepted().back()).why;
   }
 
-  static CertificateFolder* folder_;  // null between suites
+  static CertificateFolder* certificates;  // null between suites
   LinkBench bench_;
 };
-CertificateFolder* LinkHostileTest::folder_ = nullptr;
+CertificateFolder* LinkHostileTest::certificates = nullptr;
 
 bool tells(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
@@ -356,7 +356,7 @@ TEST_F(LinkHostileTest, PythonUnderstandsUs) {
   const std::uint16_t port = bench_.loop().listen(with_tls())->port;
   const std::string script = (places::project_folder() / "tests/collab/link/web_socket_peer.py").string();
   const std::string command =
-      "python3 -B '" + script + "' " + std::to_string(port) + " '" + folder_->certificate.string() + "'";
+      "python3 -B '" + script + "' " + std::to_string(port) + " '" + certificates->certificate.string() + "'";
   std::atomic<int> status = -1;
   std::thread python([&] { status = std::system(command.c_str()); });
   EXPECT_TRUE(bench_.run_until([&] { return status >= 0 && bench_.open_count(false) == 0; }));

@@ -17,13 +17,13 @@ enum class Wired { Plain, Tls };
 /// A server and what it takes to connect to it.
 class LinkLoopTest : public testing::TestWithParam<Wired> {
  protected:
-  static void SetUpTestSuite() { folder_ = new CertificateFolder(); }
-  static void TearDownTestSuite() { delete std::exchange(folder_, nullptr); }
+  static void SetUpTestSuite() { certificates = new CertificateFolder(); }
+  static void TearDownTestSuite() { delete std::exchange(certificates, nullptr); }
 
   static ListenSettings listening(Wired wired) {
     ListenSettings settings;
-    if (wired == Wired::Tls) settings.certificate = folder_->certificate;
-    if (wired == Wired::Tls) settings.key = folder_->key;
+    if (wired == Wired::Tls) settings.certificate = certificates->certificate;
+    if (wired == Wired::Tls) settings.key = certificates->key;
     settings.most_frame_bytes = 16U << 20U;
     return settings;
   }
@@ -31,7 +31,7 @@ class LinkLoopTest : public testing::TestWithParam<Wired> {
     ConnectSettings settings;
     settings.endpoint = to.value();
     settings.tls = wired == Wired::Tls;
-    if (settings.tls) settings.fingerprint = folder_->fingerprint;
+    if (settings.tls) settings.fingerprint = certificates->fingerprint;
     return settings;
   }
   static std::string sample(std::size_t size) {
@@ -40,9 +40,9 @@ class LinkLoopTest : public testing::TestWithParam<Wired> {
     return text;
   }
 
-  static CertificateFolder* folder_;  // null between suites
+  static CertificateFolder* certificates;  // null between suites
 };
-CertificateFolder* LinkLoopTest::folder_ = nullptr;
+CertificateFolder* LinkLoopTest::certificates = nullptr;
 
 std::string shown(const Endpoint& endpoint) { return endpoint.host + ":" + std::to_string(endpoint.port); }
 
@@ -271,7 +271,7 @@ TEST_F(LinkTrustTest, NoFingerprintAtAllIsSaid) {
     settings.fingerprint = text;
     EXPECT_TRUE(says(refusal(settings, bench), "no fingerprint")) << text;
   }
-  settings.fingerprint = folder_->fingerprint + "0";
+  settings.fingerprint = certificates->fingerprint + "0";
   EXPECT_TRUE(says(refusal(settings, bench), "no fingerprint"));
 }
 
@@ -286,7 +286,7 @@ TEST_F(LinkTrustTest, ReplacedCertificateIsRefused) {
 }
 
 TEST_F(LinkTrustTest, AuthorityCountsForItsHostOnly) {
-  ::setenv("SSL_CERT_FILE", folder_->certificate.c_str(), 1);
+  ::setenv("SSL_CERT_FILE", certificates->certificate.c_str(), 1);
   LinkBench bench;
   ConnectSettings settings = connecting(Wired::Tls, bench.loop().listen(listening(Wired::Tls)));
   settings.fingerprint.clear();
@@ -297,7 +297,7 @@ TEST_F(LinkTrustTest, AuthorityCountsForItsHostOnly) {
   elsewhere.endpoint.host = "127.0.0.2";
   settings.endpoint = bench.loop().listen(elsewhere).value();
   EXPECT_TRUE(says(refusal(settings, bench), "no authority"));
-  settings.fingerprint = folder_->fingerprint;
+  settings.fingerprint = certificates->fingerprint;
   const LinkId pinned = bench.loop().connect(settings);
   EXPECT_TRUE(bench.run_until_open(pinned)) << bench.of(pinned).why;
   ::unsetenv("SSL_CERT_FILE");
@@ -324,7 +324,7 @@ TEST_F(LinkTrustTest, WithoutTlsOnTheLoopbackOnly) {
 TEST_F(LinkTrustTest, ListeningThatFailsSaysWhy) {
   LinkBench bench;
   ListenSettings settings = listening(Wired::Tls);
-  settings.key = folder_->path / "none.pem";
+  settings.key = certificates->path / "none.pem";
   EXPECT_TRUE(says(bench.loop().listen(settings).error().message, "none.pem: holds no key"));
   settings.key = settings.certificate;
   EXPECT_FALSE(bench.loop().listen(settings));

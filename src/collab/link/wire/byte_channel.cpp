@@ -34,14 +34,14 @@ struct SocketOfTls {
     return command == BIO_CTRL_FLUSH ? 1 : 0;
   }
   static BIO_METHOD* method() {
-    static BIO_METHOD* const made = [] {
-      BIO_METHOD* const method = BIO_meth_new(BIO_get_new_index() | BIO_TYPE_SOURCE_SINK, "socket");
-      BIO_meth_set_read(method, read);
-      BIO_meth_set_write(method, write);
-      BIO_meth_set_ctrl(method, control);
-      return method;
+    static BIO_METHOD* const kMade = [] {
+      BIO_METHOD* const made = BIO_meth_new(BIO_get_new_index() | BIO_TYPE_SOURCE_SINK, "socket");
+      BIO_meth_set_read(made, read);
+      BIO_meth_set_write(made, write);
+      BIO_meth_set_ctrl(made, control);
+      return made;
     }();
-    return made;
+    return kMade;
   }
 };
 
