@@ -30,15 +30,18 @@ struct Peer {
   bool is_ours = false;      // made by connect(), not accepted
 };
 
-/// What happens to the connections of a LinkLoop; all calls come from the thread that runs it.
+/// What happens to the connections of a LinkLoop; all calls come from the thread that runs it, never from
+/// within connect(), send() or close(), which they may call. Who was accepted and did not shake hands as it
+/// should is not heard of.
 class LinkEvents {
  public:
   virtual ~LinkEvents() = default;
   /// Both sides have shaken hands: frames may be sent.
   virtual void opened(LinkId link, const Peer& peer) = 0;
-  /// A whole frame came; the bytes are valid during the call.
+  /// A whole frame came; the bytes are valid during the call. None comes after close().
   virtual void received(LinkId link, std::string_view frame) = 0;
-  /// What send() was given has been handed to the system: the next frame may be sent.
+  /// What send() was given has been handed to the system, which keeps little that it has not sent yet: the
+  /// next frame may be sent.
   virtual void sent(LinkId link) = 0;
   /// The connection is over, or (never opened) did not come about; `why` is a sentence. The last call for it.
   virtual void closed(LinkId link, const std::string& why) = 0;
@@ -47,14 +50,13 @@ class LinkEvents {
 /// How a server listens.
 struct ListenSettings {
   Endpoint endpoint = {};
-  std::filesystem::path certificate =
-      {};  // PEM, chain; empty: without TLS, which create() allows on the loopback only
-  std::filesystem::path key = {};  // PEM
+  std::filesystem::path certificate = {};  // PEM, chain; empty: without TLS, on the loopback only
+  std::filesystem::path key = {};          // PEM
   std::vector<std::string> origins =
       {};  // that browsers may come from, such as "https://example.org"; none else
-  std::size_t most_frame_bytes = 1U << 20U;  // a longer one ends its connection
-  std::size_t most_links = 10'000;
-  std::size_t most_links_an_address = 200;           // from one network address
+  std::size_t most_frame_bytes = 1U << 20U;          // a longer one ends its connection
+  std::size_t most_links = 10'000;                   // those that still shake hands count
+  std::size_t most_links_an_address = 200;           // from one address, or one IPv6 network (/64)
   std::chrono::milliseconds handshake_time{10'000};  // for TLS and WebSocket together
   std::chrono::milliseconds idle_time{30'000};       // nothing came, not even the answer to a ping: over
 };
@@ -62,23 +64,25 @@ struct ListenSettings {
 /// How a client connects.
 struct ConnectSettings {
   Endpoint endpoint = {};
-  bool tls = true;
-  std::string fingerprint =
-      {};  // "sha256:" and 64 hexadecimal digits of the certificate; empty: only authorities count
+  bool tls = true;               // false: to the loopback only
+  std::string fingerprint = {};  // "sha256:" and 64 hexadecimal digits: this certificate, or one that the
+                                 // system's authorities vouch for
   std::size_t most_frame_bytes = 64U << 20U;
   std::chrono::milliseconds handshake_time{10'000};
   std::chrono::milliseconds idle_time{30'000};
 };
 
-/// What an HTTP request (GET, plain) is answered with.
+/// What an HTTP request (GET, without TLS) is answered with.
 struct HttpAnswer {
   int status = 200;
   std::string type = "text/plain; charset=utf-8";
   std::string body = {};
 };
 
-/// Connections that carry frames of bytes: WebSocket over TLS 1.2 or newer, of both sides, all run by one
-/// thread. Owns its sockets; `events` outlives it. Other threads may call post() and stop() only.
+/// Connections that carry frames of bytes: WebSocket over TLS 1.2 or newer at the path /icome, of both sides,
+/// all run by one thread. Owns its sockets; `events` outlives it. Other threads may call post() and stop()
+/// only. Destroying it, not while it runs, ends all connections without a call; a name that is being looked
+/// up is waited for.
 class LinkLoop {
  public:
   static base::Result<std::unique_ptr<LinkLoop>> create(LinkEvents& events);
@@ -86,7 +90,8 @@ class LinkLoop {
   LinkLoop(const LinkLoop&) = delete;
   LinkLoop& operator=(const LinkLoop&) = delete;
 
-  /// Accepts connections from now on. Fails with a sentence that names the endpoint or the file.
+  /// Accepts connections from now on, and gives the address as a number with its port. Fails with a sentence
+  /// that names the endpoint or the file.
   base::Result<Endpoint> listen(const ListenSettings& settings);
   /// Answers GET requests at an endpoint of its own; `answer` gets the path. Little is served at a time, and
   /// what is slow or long is cut off.
@@ -98,7 +103,8 @@ class LinkLoop {
   /// Sends one frame. Precondition: opened, and sent() came for the frame before. Nothing happens on a
   /// connection that is over.
   void send(LinkId link, SharedBytes frame);
-  /// Ends a connection in good order after what is being sent, within a second or so; closed() follows.
+  /// Ends a connection in good order after what is being sent, within a second or so; the other side hears
+  /// the beginning of `why` (123 bytes), and closed() follows as the only call.
   void close(LinkId link, const std::string& why);
 
   /// Runs `work` on the loop's thread, in the order of the calls. Any thread.
@@ -107,9 +113,9 @@ class LinkLoop {
   void after(std::chrono::nanoseconds delay, std::function<void()> work);
 
   /// Runs until stop(): the calling thread is the loop's thread meanwhile. May be run again after it was
-  /// stopped.
+  /// stopped, and goes on where it was.
   void run();
-  /// Any thread, and signal handlers not: post() from there is not safe either.
+  /// Ends run(), or the next run() where none is running. Any thread, but no signal handler.
   void stop();
 
  private:
