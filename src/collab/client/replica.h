@@ -103,8 +103,8 @@ class Replica {
     world::Edit edit;
     std::vector<std::uint64_t> fences;
     std::uint64_t base = 0;
-    bool sent = false;      // by this connection
-    bool was_sent = false;  // by any: the server may have it as it is
+    bool sent = false;                   // by this connection
+    bool was_sent = false;               // by any: the server may have it as it is
     std::optional<world::Edit> inverse;  // nothing: it does not apply now
   };
   struct Tentative {

@@ -7,15 +7,18 @@
 
 namespace icome::collab {
 
+/// In the place of a fingerprint: the server speaks without TLS, which only servers on this machine do.
+inline constexpr std::string_view kNoTls = "none";
+
 /// The address of a design on a server, as `icome invite` prints it:
 /// icome://HOST:PORT/DESIGN#token=TOKEN&key=sha256:DIGITS
 struct DesignAddress {
   std::string host = {};  // IPv6 without brackets
   std::uint16_t port = 0;
   std::string design = {};
-  std::string token = {};  // secret: whoever has it may come in
-  std::string fingerprint =
-      {};  // of the server's certificate, "sha256:" and 64 hexadecimal digits; empty: none
+  std::string token = {};        // secret: whoever has it may come in
+  std::string fingerprint = {};  // of the server's certificate, "sha256:" and 64 hexadecimal digits; empty:
+                                 // authorities vouch for it
 };
 
 /// Does the text begin as an address does, "icome://", so that it is not taken for a file?

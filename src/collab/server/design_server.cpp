@@ -1,0 +1,268 @@
+#include "collab/server/design_server.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
+#include "base/clock.h"
+#include "collab/link/certificate.h"
+#include "collab/storage/sqlite_op_log.h"
+#include "collab/storage/store_folder.h"
+
+namespace icome::collab {
+namespace {
+
+constexpr std::int64_t kTick = 100;            // ms
+constexpr std::int64_t kMostStopping = 5'000;  // ms for clients to go and for the log to end
+constexpr std::int64_t kBusyFrames = 400;      // in a tick: from then on what is to be said is gathered
+constexpr std::int64_t kBusyPause = 8;         // ms between two frames to a client, when busy
+constexpr const char* kEmbeddedHolder = "the server of this folder";
+
+std::int64_t steady_milliseconds() { return base::steady_nanoseconds() / 1'000'000; }
+
+/// The text as JSON writes it.
+std::string quoted_json(const std::string& text) {
+  std::string result = "\"";
+  for (const char letter : text) {
+    const auto code = static_cast<unsigned char>(letter);
+    if (letter == '"' || letter == '\\') {
+      result += '\\';
+      result += letter;
+    } else if (code < 0x20) {
+      result += fmt::format("\\u{:04x}", code);
+    } else {
+      result += letter;
+    }
+  }
+  return result + '"';
+}
+
+struct ServedFiles {
+  std::filesystem::path certificate, key;
+};
+
+base::Result<ServedFiles> certificate_files(const ServeSettings& settings, const StoreFolder& folder) {
+  if (settings.insecure) return ServedFiles{};
+  if (settings.certificate.empty() != settings.key.empty())
+    return base::fail("A certificate goes with its key: give both, --certificate and --key.");
+  if (!settings.certificate.empty()) return ServedFiles{settings.certificate, settings.key};
+  std::error_code error;
+  if (!std::filesystem::exists(folder.certificate(), error) ||
+      !std::filesystem::exists(folder.certificate_key(), error)) {
+    if (const auto made = make_certificate(folder.certificate(), folder.certificate_key()); !made)
+      return tl::unexpected(made.error());
+  }
+  return ServedFiles{folder.certificate(), folder.certificate_key()};
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<DesignServer>> DesignServer::create(const ServeSettings& settings) {
+  auto path = settings.store.empty() ? StoreFolder::default_path() : settings.store;
+  if (!path) return tl::unexpected(path.error());
+  const auto folder = StoreFolder::make(*path);
+  if (!folder) return tl::unexpected(folder.error());
+  auto lock = folder->lock();
+  if (!lock) return tl::unexpected(lock.error());
+  auto log = SqliteOpLog::open(folder->designs());
+  if (!log) return tl::unexpected(log.error());
+  auto signer = TokenSigner::open(folder->token_key());
+  if (!signer) return tl::unexpected(signer.error());
+  const auto files = certificate_files(settings, *folder);
+  if (!files) return tl::unexpected(files.error());
+
+  ServeSettings complete = settings;
+  complete.certificate = files->certificate;
+  complete.key = files->key;
+  // The lock of the folder proves that no other server has the designs.
+  if (complete.hub.holder.empty()) complete.hub.holder = kEmbeddedHolder;
+  std::unique_ptr<DesignServer> server(
+      new DesignServer(std::move(*lock), std::move(*signer), complete.hub, folder->audit()));
+  server->folder_ = folder->path();
+  if (const auto started = server->start(complete, std::make_unique<SqliteOpLog>(std::move(*log))); !started)
+    return tl::unexpected(started.error());
+  if (const auto noted =
+          folder->write_address({server->endpoint_.host, server->endpoint_.port, server->fingerprint_});
+      !noted)
+    return tl::unexpected(noted.error());
+  return server;
+}
+
+DesignServer::DesignServer(io::OpenFile lock, TokenSigner signer, HubSettings settings,
+                           const std::filesystem::path& audit)
+    : lock_(std::move(lock)),
+      hub_(std::move(settings), std::move(signer), factory_,
+           [this](const AuditRow& row) { write_audit(row); }),
+      audit_(std::fopen(audit.c_str(), "ae")),
+      started_(steady_milliseconds()) {}
+
+DesignServer::~DesignServer() {
+  log_.reset();
+  if (audit_ != nullptr) std::fclose(audit_);
+}
+
+base::Result<void> DesignServer::start(const ServeSettings& settings, std::unique_ptr<OpLog> log) {
+  if (audit_ == nullptr) return base::fail(folder_.string() + ": the audit log cannot be written there.");
+  auto loop = LinkLoop::create(*this);
+  if (!loop) return tl::unexpected(loop.error());
+  loop_ = std::move(*loop);
+  if (!settings.insecure) {
+    auto fingerprint = fingerprint_of(settings.certificate);
+    if (!fingerprint) return tl::unexpected(fingerprint.error());
+    fingerprint_ = std::move(*fingerprint);
+  }
+  ListenSettings listening{.endpoint = settings.listen,
+                           .certificate = settings.certificate,
+                           .key = settings.key,
+                           .origins = settings.origins};
+  listening.most_links_an_address = settings.most_links_an_address;
+  auto endpoint = loop_->listen(listening);
+  if (!endpoint) return tl::unexpected(endpoint.error());
+  endpoint_ = std::move(*endpoint);
+  if (settings.health) {
+    auto health =
+        loop_->listen_http(*settings.health, [this](std::string_view path) { return answer(path); });
+    if (!health) return tl::unexpected(health.error());
+    health_ = std::move(*health);
+  }
+  log_ = std::make_unique<LogThread>(std::move(log), [this](std::function<void()> then) {
+    loop_->post([this, then = std::move(then)] {
+      log_works_ = false;
+      then();
+      stir();
+    });
+  });
+  return {};
+}
+
+void DesignServer::run(const std::function<bool()>& ends) {
+  ends_ = ends;
+  loop_->post([this] { tick(); });
+  loop_->run();
+}
+
+// ---- what happens
+
+void DesignServer::opened(LinkId link, const Peer& peer) {
+  links_[link] = 0;
+  hub_.opened(link, peer.address, steady_milliseconds());
+}
+
+void DesignServer::received(LinkId link, std::string_view frame) {
+  hub_.received(link, frame, steady_milliseconds(), wall_milliseconds());
+  stir();
+}
+
+void DesignServer::sent(LinkId link) {
+  sending_.erase(link);
+  flush(link);
+}
+
+void DesignServer::closed(LinkId link, const std::string&) {
+  links_.erase(link);
+  sending_.erase(link);
+  held_back_.erase(link);
+  hub_.closed(link, steady_milliseconds());
+  stir();
+}
+
+/// What has happened is followed by one look at who has to hear of it, behind all else that has come in.
+void DesignServer::stir() {
+  if (is_stirred_) return;
+  is_stirred_ = true;
+  loop_->post([this] {
+    is_stirred_ = false;
+    flush();
+    work_on_log();
+  });
+}
+
+void DesignServer::flush() {
+  for (const LinkId link : hub_.take_stirred()) flush(link);
+}
+
+void DesignServer::flush(LinkId link) {
+  const auto found = links_.find(link);
+  if (found == links_.end() || sending_.contains(link)) return;
+  const std::int64_t now = steady_milliseconds();
+  if (is_busy_ && now - found->second < kBusyPause) {
+    if (held_back_.empty())
+      loop_->after(std::chrono::milliseconds(kBusyPause), [this] {
+        for (const LinkId waiting : std::exchange(held_back_, {})) flush(waiting);
+      });
+    held_back_.insert(link);
+    return;
+  }
+  if (SharedBytes frame = hub_.next_frame(link, now)) {
+    found->second = now;
+    ++busy_frames_;
+    sending_.insert(link);
+    loop_->send(link, std::move(frame));
+  } else if (const auto why = hub_.parting(link)) {
+    loop_->close(link, *why);
+  }
+}
+
+void DesignServer::work_on_log() {
+  if (log_works_) return;
+  if (StorageWork work = hub_.next_work()) {
+    log_works_ = true;
+    log_->start(std::move(work));
+  }
+}
+
+void DesignServer::tick() {
+  const std::int64_t now = steady_milliseconds();
+  is_busy_ = busy_frames_ > kBusyFrames;
+  busy_frames_ = 0;
+  if (!stops_ && ends_()) {
+    stops_ = true;
+    stop_until_ = now + kMostStopping;
+    hub_.stop(now);
+  }
+  hub_.tick(now, wall_milliseconds());
+  stir();
+  if (stops_ && ((hub_.is_done() && !log_works_) || now > stop_until_)) return loop_->stop();
+  loop_->after(std::chrono::milliseconds(kTick), [this] { tick(); });
+}
+
+// ---- what administrators see
+
+HttpAnswer DesignServer::answer(std::string_view path) const {
+  if (path == "/health") return {200, "application/json", "{\"status\":\"ok\"}\n"};
+  if (path != "/metrics") return {404, "text/plain; charset=utf-8", "There are /health and /metrics.\n"};
+  const HubCounters& it = hub_.counters();
+  std::string text;
+  const auto add = [&](const char* name, const char* kind, const char* help, std::uint64_t value) {
+    text +=
+        fmt::format("# HELP icome_{0} {1}\n# TYPE icome_{0} {2}\nicome_{0} {3}\n", name, help, kind, value);
+  };
+  add("connections", "gauge", "Connections that are open.", it.links);
+  add("designs", "gauge", "Designs that are open.", it.rooms);
+  add("edits_accepted_total", "counter", "Edits that were put in order.", it.accepted_edits);
+  add("edits_refused_total", "counter", "Edits that were refused.", it.refused_edits);
+  add("hellos_refused_total", "counter", "Clients that were not let in.", it.refused_hellos);
+  add("messages_received_total", "counter", "Messages of clients.", it.messages);
+  add("frames_sent_total", "counter", "Frames to clients.", it.frames);
+  add("bytes_sent_total", "counter", "Bytes of those frames.", it.frame_bytes);
+  add("commits_total", "counter", "Commits of the log.", it.commits);
+  add("commits_failed_total", "counter", "Appends that the log refused.", it.failed_commits);
+  add("edits_committed_total", "counter", "Edits that are durable.", it.committed_edits);
+  add("uptime_seconds", "gauge", "Since the server began.",
+      std::uint64_t((steady_milliseconds() - started_) / 1'000));
+  return {200, "text/plain; version=0.0.4; charset=utf-8", std::move(text)};
+}
+
+void DesignServer::write_audit(const AuditRow& row) {
+  const std::string line = fmt::format(
+      "{{\"at\":{},\"what\":{},\"address\":{},\"design\":{},\"name\":{},\"invitation\":{},\"author\":{},"
+      "\"detail\":{}}}\n",
+      row.at, quoted_json(row.what), quoted_json(row.address), quoted_json(row.design), quoted_json(row.name),
+      quoted_json(row.invitation), row.author, quoted_json(row.detail));
+  std::fwrite(line.data(), 1, line.size(), audit_);
+  std::fflush(audit_);
+}
+
+}  // namespace icome::collab

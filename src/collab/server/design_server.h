@@ -1,0 +1,92 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_map>
+
+#include "base/result.h"
+#include "collab/link/link_loop.h"
+#include "collab/server/hub.h"
+#include "collab/server/log_thread.h"
+#include "io/open_file.h"
+
+namespace icome::collab {
+
+/// How a server serves.
+struct ServeSettings {
+  std::filesystem::path store = {};  // a folder; empty: StoreFolder::default_path()
+  Endpoint listen = {};
+  std::filesystem::path certificate =
+      {};  // PEM, with `key`; empty: the store's own, made where there is none
+  std::filesystem::path key = {};
+  bool insecure = false;                  // without TLS, on the loopback only
+  std::optional<Endpoint> health = {};    // where /health and /metrics are answered; nothing: nowhere
+  std::vector<std::string> origins = {};  // of browsers
+  std::size_t most_links_an_address = 200;
+  HubSettings hub = {};
+};
+
+/// A server of the designs in a store's folder, which it has for itself: sockets, threads and clocks around a
+/// Hub. Owns everything. run() is the only thread that works with it, but for the log's own.
+class DesignServer final : private LinkEvents {
+ public:
+  /// Listens when it returns. Fails with a sentence that names the folder, the file or the address.
+  static base::Result<std::unique_ptr<DesignServer>> create(const ServeSettings& settings);
+  ~DesignServer() override;
+
+  /// Where it listens.
+  const Endpoint& endpoint() const { return endpoint_; }
+  std::optional<Endpoint> health_endpoint() const { return health_; }
+  /// Of its certificate; empty without TLS.
+  const std::string& fingerprint() const { return fingerprint_; }
+  const std::filesystem::path& store() const { return folder_; }
+
+  /// Serves until `ends` (asked some times a second) says so; then tells the clients, and saves what they
+  /// have sent.
+  void run(const std::function<bool()>& ends);
+
+ private:
+  DesignServer(io::OpenFile lock, TokenSigner signer, HubSettings settings,
+               const std::filesystem::path& audit);
+  base::Result<void> start(const ServeSettings& settings, std::unique_ptr<OpLog> log);
+  void opened(LinkId link, const Peer& peer) override;
+  void received(LinkId link, std::string_view frame) override;
+  void sent(LinkId link) override;
+  void closed(LinkId link, const std::string& why) override;
+
+  void stir();
+  void flush();
+  void flush(LinkId link);
+  void work_on_log();
+  void tick();
+  HttpAnswer answer(std::string_view path) const;
+  void write_audit(const AuditRow& row);
+
+  std::filesystem::path folder_;
+  io::OpenFile lock_;
+  world::GeometryFactory factory_;
+  std::unique_ptr<LinkLoop> loop_;
+  Hub hub_;
+  std::unique_ptr<LogThread> log_;
+  std::FILE* audit_ = nullptr;
+  Endpoint endpoint_;
+  std::optional<Endpoint> health_;
+  std::string fingerprint_;
+  std::function<bool()> ends_;
+  bool log_works_ = false;
+  bool is_stirred_ = false;
+  bool stops_ = false;
+  std::int64_t stop_until_ = 0;                     // ms
+  std::int64_t started_ = 0;                        // ms
+  std::unordered_map<LinkId, std::int64_t> links_;  // when each was last sent something, ms
+  std::set<LinkId> sending_;                        // those whose last frame is under way
+  std::set<LinkId> held_back_;                      // to be looked at when their pause is over
+  std::int64_t busy_frames_ = 0;                    // sent in this tenth of a second
+  bool is_busy_ = false;
+};
+
+}  // namespace icome::collab
