@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "apps/collab/collab_command.h"
 #include "apps/desktop/desktop_command.h"
 #include "apps/devices/devices_command.h"
 #include "apps/devices/devices_help.h"
@@ -22,6 +23,7 @@
 #include "apps/terminal.h"
 #include "apps/touch/effect_options.h"
 #include "base/version.h"
+#include "collab/protocol/address.h"
 
 namespace icome::apps {
 namespace {
@@ -42,6 +44,7 @@ struct Entries {
   StudyOptions study;
   TechniquesOptions techniques;
   DevicesOptions devices;
+  CollabOptions collab;
   DesktopCommandOptions desktop;
   TouchOptions touch;
   std::string friction;
@@ -225,8 +228,20 @@ void add_convert_options(CLI::App& convert, ConvertOptions& options) {
   convert.add_option("IN", options.in, kDesignFileHelp)->required()->type_name("");
   convert.add_option("OUT", options.out, kDesignOutHelp)->required()->type_name("");
   add_reading_options(convert, options.reading);
+  convert
+      .add_option("--into", options.into,
+                  "Where OUT is the link of a design on a server: put it under this object of that design")
+      ->type_name("PARENT");
   convert.add_flag("--force", options.force, kForceHelp);
   convert.add_flag("--json", options.json, "Print what was done as JSON (fields below)");
+}
+
+/// Throws where options do not go with a design on a server.
+void check_remote_edit(const EditOptions& options) {
+  if (!options.out.empty() || !options.replay.empty())
+    throw CLI::ValidationError(
+        "A design on a server is changed where it is: --out and --replay are for files.");
+  if (options.apply.empty() && !options.watch) throw CLI::RequiredError("--apply or --watch");
 }
 
 void add_edit_options(CLI::App& edit, EditOptions& options) {
@@ -247,12 +262,17 @@ void add_edit_options(CLI::App& edit, EditOptions& options) {
                       "List every operation with its parameters, or only OP; goes without the others")
           ->type_name("[OP]")
           ->expected(0, 1);
+  edit.add_flag("--watch", options.watch,
+                "Where IN is a link: tell what people do to the design, a line each, until Ctrl-C");
   add_reading_options(edit, options.reading);
   edit.add_flag("--force", options.force, kForceHelp);
   edit.add_flag("--json", options.json, "Print what was done, or the operations, as JSON (fields below)");
   edit.callback([&options, help, in, apply, replay, out] {
     options.help_ops = help->count() > 0;
     if (options.help_ops) return;
+    if (collab::is_design_address(options.in)) return check_remote_edit(options);
+    if (options.watch)
+      throw CLI::ValidationError("--watch is for a design on a server: give its link as IN.");
     if (apply->count() > 0 && replay->count() > 0) throw CLI::ExcludesError("--apply", "--replay");
     const CLI::Option* const what = replay->count() > 0 ? replay : apply;
     for (const auto& [option, name] : {std::pair(in, "IN"), {what, "--apply"}, {out, "--out"}})
@@ -476,6 +496,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   add_stats_options(stats, entries.stats);
   CLI::App& study = *app.add_subcommand("study", kStudySummary);
   add_study_options(study, entries.study);
+  add_collab_commands(app, entries.collab);
   const CLI::App* const named = named_subcommand(app, 1, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
   if (argc > 1 && argv[1][0] != '-' && named == nullptr && !is_design_name(argv[1]))
@@ -521,6 +542,8 @@ CommandLine parse_command_line(int argc, char** argv) {
     command_line.study = std::move(entries.study);
   } else if (devices.parsed()) {
     command_line.devices = std::move(entries.devices);
+  } else if (!entries.collab.task.empty()) {
+    command_line.collab = std::move(entries.collab);
   } else if (techniques.parsed()) {
     auto options = understood_techniques(entries);
     if (!options) return bad_usage(options.error().message, help);

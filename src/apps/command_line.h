@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "apps/collab/collab_options.h"
 #include "apps/csg/csg_options.h"
 #include "apps/design/design_options.h"
 #include "apps/design/shot_options.h"
@@ -26,6 +27,7 @@ struct CommandLine {
   std::optional<StudyOptions> study;
   std::optional<TechniquesOptions> techniques;
   std::optional<DevicesOptions> devices;
+  std::optional<CollabOptions> collab;
   std::optional<DesktopCommandOptions> desktop;
   int exit_code = 0;  // to return when none is set: help or version were printed, or an error
 };

@@ -1,6 +1,7 @@
 #include <exception>
 #include <new>
 
+#include "apps/collab/collab_command.h"
 #include "apps/command_line.h"
 #include "apps/csg/csg_command.h"
 #include "apps/design/convert_command.h"
@@ -28,6 +29,7 @@ int main(int argc, char** argv) {
     if (command_line.study) return icome::apps::run_study(argc, argv, *command_line.study);
     if (command_line.techniques) return icome::apps::run_techniques(*command_line.techniques);
     if (command_line.devices) return icome::apps::run_devices(*command_line.devices);
+    if (command_line.collab) return icome::apps::run_collab(*command_line.collab);
     if (command_line.desktop) return icome::apps::run_desktop_window(argc, argv, *command_line.desktop);
     return command_line.exit_code;
   } catch (const std::bad_alloc&) {

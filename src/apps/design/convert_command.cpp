@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/collab/remote_design.h"
 #include "apps/design/design_figures.h"
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
@@ -18,7 +19,7 @@ using Json = nlohmann::ordered_json;
 std::string convert_json(const ConvertOptions& options, const DesignFigures& figures,
                          const std::vector<std::string>& warnings) {
   Json report;
-  report["in"] = options.in.string();
+  report["in"] = shown_name(options.in);
   report["out"] = options.out.string();
   report["objects"] = figures.objects;
   report["triangles"] = figures.triangles;
@@ -35,11 +36,38 @@ std::string convert_text(const ConvertOptions& options, std::size_t objects,
   return text;
 }
 
+/// Puts the design into one on a server.
+int convert_to_server(const ConvertOptions& options, StatusLine& status) {
+  const auto design = read_for_person(options.in, options.reading, status);
+  if (!design) return end_without_result(design.error(), status);
+  const auto sent = send_model(design->world, options.out.string(), options.into, status);
+  if (!sent) return end_without_result(sent.error(), status);
+  std::vector<std::string> warnings;
+  for (const files::Remark& remark : design->remarks)
+    warnings.push_back(sentence(remark, shown_name(options.in)));
+  if (!options.json) {
+    std::string text = fmt::format("{}: {} object{} put in, as edit {}\n", shown_name(options.out),
+                                   grouped(sent->objects), sent->objects == 1 ? "" : "s", sent->sequence);
+    for (const std::string& warning : warnings) text += "  " + warning + "\n";
+    return print_answer(text);
+  }
+  const auto figures = figures_of(*design, shown_name(options.in), files::shown_triangles,
+                                  [](std::size_t, std::size_t) { return true; });
+  Json report{{"in", shown_name(options.in)}, {"out", shown_name(options.out)},
+              {"objects", figures->objects},  {"triangles", figures->triangles},
+              {"bytes", sent->bytes},         {"warnings", warnings},
+              {"sequence", sent->sequence}};
+  return print_answer(report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
 }  // namespace
 
 int run_convert(const ConvertOptions& options) {
   catch_interrupts();
   StatusLine status;
+  if (is_remote(options.out)) return convert_to_server(options, status);
+  if (!options.into.empty())
+    return end_without_result({"--into is for a design on a server: give its link as OUT."}, status);
   // A format that cannot be written is better reported before a long read.
   if (const auto able = files::check_can_write(options.out); !able)
     return end_without_result(able.error(), status);
@@ -53,10 +81,10 @@ int run_convert(const ConvertOptions& options) {
   status.clear();
   std::vector<std::string> warnings;
   for (const files::Remark& remark : design->remarks)
-    warnings.push_back(sentence(remark, options.in.string()));
+    warnings.push_back(sentence(remark, shown_name(options.in)));
   for (const files::Remark& remark : *losses) warnings.push_back(sentence(remark, options.out.string()));
   if (!options.json) return print_answer(convert_text(options, design->world.objects().size(), warnings));
-  const auto figures = figures_of(*design, options.in.string(), files::written_triangles(options.out),
+  const auto figures = figures_of(*design, shown_name(options.in), files::written_triangles(options.out),
                                   [](std::size_t, std::size_t) { return true; });
   return print_answer(convert_json(options, *figures, warnings));
 }

@@ -27,6 +27,7 @@ struct ConvertOptions {
   std::filesystem::path in;
   std::filesystem::path out;
   ReadingOptions reading;
+  std::string into;  // the object that the design goes under, where `out` is on a server; empty: as new roots
   bool force = false;  // replaces a file even if some of it would be lost
   bool json = false;
 };
@@ -42,6 +43,7 @@ struct EditOptions {
   bool force = false;     // replaces a file even if some of it would be lost
   bool help_ops = false;  // only list the operations
   std::string operation;  // then: only this one; empty: all
+  bool watch = false;     // of a design on a server: tell what happens, until interrupted
   bool json = false;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apps/collab/remote_design.h"
 #include "apps/interrupt.h"
 #include "apps/terminal.h"
 #include "files/design_files.h"
@@ -40,6 +41,7 @@ std::vector<std::string> first_sentences(const std::vector<files::Remark>& remar
 
 base::Result<files::LoadedDesign> read_for_person(const std::filesystem::path& file,
                                                   const ReadingOptions& reading, StatusLine& status) {
+  if (is_remote(file)) return fetch_design(file.string(), status);
   auto understood = understood_reading(reading);
   if (!understood) return tl::unexpected(understood.error());
   files::DesignReadOptions& options = *understood;

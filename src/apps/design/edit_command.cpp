@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "apps/collab/remote_design.h"
+#include "apps/collab/remote_edit.h"
 #include "apps/design/design_figures.h"
 #include "apps/design/design_work.h"
 #include "apps/design/edit_script.h"
@@ -18,29 +19,12 @@
 #include "apps/touch/touch_report.h"
 #include "files/design_files.h"
 #include "interaction/techniques/technique_recording.h"
-#include "io/file_bytes.h"
 #include "session/storage/picture_file.h"
 
 namespace icome::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::uint64_t kLargestScript = 2ULL << 30U;  // bytes
-
-/// The text of the script or the recording.
-base::Result<std::string> script_text(const EditOptions& options) {
-  if (!options.replay.empty()) return io::read_bytes(options.replay, kLargestScript);
-  if (options.apply != "-") return io::read_bytes(options.apply, kLargestScript);
-  std::string text;
-  std::vector<char> piece(1U << 20U);
-  while (std::cin.read(piece.data(), std::streamsize(piece.size())) || std::cin.gcount() > 0) {
-    text.append(piece.data(), std::size_t(std::cin.gcount()));
-    if (text.size() > kLargestScript)
-      return base::fail(fmt::format("standard input goes on after {} MiB: give less", kLargestScript >> 20U));
-  }
-  return text;
-}
 
 base::Result<files::LoadedDesign> beginning(const EditOptions& options, StatusLine& status) {
   if (options.in == kNewDesign) return files::LoadedDesign{};
@@ -60,7 +44,10 @@ base::Result<EditOutcome> perform_text(const EditOptions& options, std::string_v
         options.apply == "-" ? std::filesystem::path() : options.apply.parent_path();
     interaction::OperationRunner runner(
         std::move(world), [&](const std::string& file) { return session::read_picture(folder / file); });
-    EditOutcome outcome = perform_script(runner, text, options.keep_going, goes_on);
+    const auto perform = [&](const interaction::Value& command, std::size_t) {
+      return runner.perform(command);
+    };
+    EditOutcome outcome = perform_script(perform, text, options.keep_going, goes_on);
     world = runner.world();
     return outcome;
   }
@@ -140,6 +127,7 @@ int list_operations(const EditOptions& options) {
 
 int run_edit(const EditOptions& options) {
   if (options.help_ops) return list_operations(options);
+  if (is_remote(options.in)) return run_remote_edit(options);
   StatusLine status;
   // A format that cannot be written is better reported before the work.
   if (const auto able = files::check_can_write(options.out); !able)

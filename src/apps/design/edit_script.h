@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/design/design_options.h"
 #include "interaction/operations/operation_runner.h"
 
 namespace icome::apps {
@@ -31,10 +32,17 @@ struct EditOutcome {
   bool stopped = false;  // on request, before the end
 };
 
+/// The text of the script of `icome edit`: a file or standard input, or a recording.
+base::Result<std::string> script_text(const EditOptions& options);
+
+/// Performs one operation; `line` is its number, from 1.
+using PerformLine =
+    std::function<base::Result<interaction::Performed>(const interaction::Value& command, std::size_t line)>;
+
 /// Performs the operations of a text, one JSON object a line; empty lines and those that begin with # are
 /// skipped. Ends with the first that is wrong, or goes on to the end. `progress` gets the part done, in
 /// [0, 1], before every line; false stops.
-EditOutcome perform_script(interaction::OperationRunner& runner, std::string_view text, bool keep_going,
+EditOutcome perform_script(const PerformLine& perform, std::string_view text, bool keep_going,
                            const std::function<bool(double part)>& progress);
 
 }  // namespace icome::apps

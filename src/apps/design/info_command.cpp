@@ -1,5 +1,6 @@
 #include "apps/design/info_command.h"
 
+#include "apps/collab/remote_design.h"
 #include "apps/design/design_figures.h"
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
@@ -18,7 +19,7 @@ int run_info(const InfoOptions& options) {
     status.progress("Measuring", double(done), double(all), "objects");
     return !interrupted();
   };
-  auto figures = figures_of(*design, options.file.string(), files::shown_triangles, go_on);
+  auto figures = figures_of(*design, shown_name(options.file), files::shown_triangles, go_on);
   if (!figures) return end_without_result(figures.error(), status);
   status.clear();
   figures->read_seconds = read_seconds;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/collab/remote_design.h"
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
 #include "apps/stopwatch.h"
@@ -154,7 +155,7 @@ base::Result<ShotFigures> take_shot(const ShotOptions& options, StatusLine& stat
   figures.draw_seconds = drawing.seconds();
   figures.objects = scene->object_count();
   figures.triangles = scene->triangle_count();
-  figures.remarks = first_sentences(design->remarks, options.file.string());
+  figures.remarks = first_sentences(design->remarks, shown_name(options.file));
   figures.remarks.insert(figures.remarks.end(), scene->remarks().begin(), scene->remarks().end());
   if (figures.objects == 0) figures.remarks.push_back("The design has nothing to see: the picture is empty.");
   return figures;

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "apps/collab/remote_design.h"
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
 #include "apps/stopwatch.h"
@@ -29,6 +30,10 @@ using world::World;
 constexpr std::size_t kMostSentences = 20;  // of a design's; `icome info` lists them all
 
 base::Result<files::LoadedDesign> read_file(const std::string& text, const TouchOptions& options) {
+  if (is_remote(text)) {
+    StatusLine status;
+    return fetch_design(text, status);
+  }
   auto how = understood_reading(options.reading);
   if (!how) return tl::unexpected(how.error());
   how->with_looks = false;

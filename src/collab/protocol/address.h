@@ -7,6 +7,9 @@
 
 namespace icome::collab {
 
+/// The port that servers listen at where nothing else is said.
+inline constexpr std::uint16_t kUsualPort = 4263;
+
 /// In the place of a fingerprint: the server speaks without TLS, which only servers on this machine do.
 inline constexpr std::string_view kNoTls = "none";
 

@@ -11,10 +11,9 @@
 namespace icome::collab {
 namespace {
 
-constexpr std::uint64_t kReadAtOnce = 16U << 20U;  // bytes of log entries
-constexpr std::int64_t kRevokedGap = 250;          // ms between two looks for links that were revoked
-constexpr std::size_t kMostNameBytes = 100;        // of a person
-constexpr double kMessagesAtOnce = 5.0;            // s at the allowed rate
+constexpr std::int64_t kRevokedGap = 250;    // ms between two looks for links that were revoked
+constexpr std::size_t kMostNameBytes = 100;  // of a person
+constexpr double kMessagesAtOnce = 5.0;      // s at the allowed rate
 
 SharedBytes frame_of(const ServerMessage& message) {
   std::string frame;
@@ -32,21 +31,6 @@ struct Opening {
   Parting code = Parting::Other;
 };
 
-base::Result<RoomStart> read_start(OpLog& log, const std::string& design, std::uint64_t fence,
-                                   std::uint64_t history) {
-  auto snapshot = log.snapshot(design);
-  if (!snapshot) return tl::unexpected(snapshot.error());
-  RoomStart start{design, fence, history, std::move(*snapshot), {}};
-  std::uint64_t after = start.snapshot ? start.snapshot->sequence : 0;
-  while (true) {
-    auto entries = log.read_from(design, after, kReadAtOnce);
-    if (!entries) return tl::unexpected(entries.error());
-    if (entries->empty()) return start;
-    after = entries->back().sequence;
-    std::ranges::move(*entries, std::back_inserter(start.entries));
-  }
-}
-
 Opening open_from(OpLog& log, const std::string& design, const HubSettings& settings,
                   const world::GeometryFactory& factory) {
   Opening opening;
@@ -63,7 +47,7 @@ Opening open_from(OpLog& log, const std::string& design, const HubSettings& sett
   (void)log.release(design, settings.holder);
   const auto lease = log.lease(design, settings.holder, settings.design_lease);
   if (!lease) return failed(lease.error(), Parting::Other);
-  const auto start = read_start(log, design, lease->fence, (*found)->history);
+  const auto start = read_start(log, **found, lease->fence);
   if (!start) return failed(start.error(), Parting::Other);
   auto room = Room::open(*start, settings.room, factory);
   if (!room) return failed(room.error(), Parting::Other);

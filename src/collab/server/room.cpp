@@ -22,6 +22,21 @@ SharedBytes shared_bytes(const ServerMessage& message) {
 
 }  // namespace
 
+base::Result<RoomStart> read_start(OpLog& log, const DesignRow& design, std::uint64_t fence) {
+  constexpr std::uint64_t kReadAtOnce = 16U << 20U;  // bytes
+  auto snapshot = log.snapshot(design.name);
+  if (!snapshot) return tl::unexpected(snapshot.error());
+  RoomStart start{design.name, fence, design.history, std::move(*snapshot), {}};
+  std::uint64_t after = start.snapshot ? start.snapshot->sequence : 0;
+  while (true) {
+    auto entries = log.read_from(design.name, after, kReadAtOnce);
+    if (!entries) return tl::unexpected(entries.error());
+    if (entries->empty()) return start;
+    after = entries->back().sequence;
+    std::ranges::move(*entries, std::back_inserter(start.entries));
+  }
+}
+
 Room::Room(std::string design, std::uint64_t fence, const RoomSettings& settings,
            const world::GeometryFactory& factory)
     : design_(std::move(design)),

@@ -41,6 +41,9 @@ struct RoomStart {
   std::vector<LogEntry> entries = {};     // behind the snapshot
 };
 
+/// Reads what a room is made of; `fence` is that of the reader's lease.
+base::Result<RoomStart> read_start(OpLog& log, const DesignRow& design, std::uint64_t fence);
+
 /// Somebody whose token was found good.
 struct Arrival {
   std::uint32_t author = 0;

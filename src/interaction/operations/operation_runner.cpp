@@ -10,34 +10,41 @@ namespace icome::interaction {
 OperationRunner::OperationRunner(world::World world, PictureReader pictures)
     : world_(std::move(world)), ids_(0, world_.next_number(0)), pictures_(std::move(pictures)) {}
 
-base::Result<Performed> OperationRunner::perform(const Value& command) {
+base::Result<void> OperationRunner::undo() {
+  const auto done = history_.undo(world_);
+  return done ? base::Result<void>() : tl::unexpected(done.error());
+}
+
+base::Result<void> OperationRunner::redo() {
+  const auto done = history_.redo(world_);
+  return done ? base::Result<void>() : tl::unexpected(done.error());
+}
+
+base::Result<Performed> perform_operation(OperationTarget& target, const Value& command,
+                                          const PictureReader& pictures) {
   const Value::Fields* fields = command.fields();
   const Value* name = fields ? field(*fields, "op") : nullptr;
   if (!name || !name->text())
     return base::fail(R"(this is no operation, such as {"op": "create", "shape": "box", "name": "seat"})");
-  const auto operation = find_operation(*name->text());
-  if (!operation) return tl::unexpected(operation.error());
+  const auto found = find_operation(*name->text());
+  if (!found) return tl::unexpected(found.error());
+  const Operation& operation = **found;
   const auto named = [&](const base::Error& error) {
-    return base::fail(fmt::format("{}: {}", (*operation)->name, error.message));
+    return base::fail(fmt::format("{}: {}", operation.name, error.message));
   };
   Value::Fields arguments = *fields;
   std::erase_if(arguments, [](const auto& it) { return it.first == "op"; });
-  if (!(*operation)->plan) {
-    if (!arguments.empty()) return base::fail(fmt::format("{} takes no parameters", (*operation)->name));
-    return turn(**operation);
+  if (!operation.plan) {
+    if (!arguments.empty()) return base::fail(fmt::format("{} takes no parameters", operation.name));
+    const auto done = operation.name == "undo" ? target.undo() : target.redo();
+    if (!done) return named(done.error());
+    return Performed{&operation, {}};
   }
-  auto plan = plan_operation(**operation, arguments, world_, ids_, pictures_);
+  auto plan = plan_operation(operation, arguments, target.world(), target.ids(), pictures);
   if (!plan) return named(plan.error());
-  if (const auto done = history_.perform(world_, plan->edit, (*operation)->title); !done)
-    return named(done.error());
-  std::erase_if(plan->objects, [&](world::ObjectId id) { return !world_.find(id); });
-  return Performed{*operation, std::move(plan->objects), std::move(plan->note)};
-}
-
-base::Result<Performed> OperationRunner::turn(const Operation& operation) {
-  const auto done = operation.name == "undo" ? history_.undo(world_) : history_.redo(world_);
-  if (!done) return base::fail(fmt::format("{}: {}", operation.name, done.error().message));
-  return Performed{&operation, {}};
+  if (const auto done = target.act(plan->edit, operation.title); !done) return named(done.error());
+  std::erase_if(plan->objects, [&](world::ObjectId id) { return !target.world().find(id); });
+  return Performed{&operation, std::move(plan->objects), std::move(plan->note)};
 }
 
 base::Result<Plan> plan_operation(const Operation& operation, const Value::Fields& fields,

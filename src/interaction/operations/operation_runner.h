@@ -14,21 +14,44 @@ struct Performed {
   std::string note = {};                 // a remark for people
 };
 
-/// Performs operations on a world that it owns, one action each, as a person at the desktop would: `icome
-/// edit` and tests drive it, and it undoes and redoes.
-class OperationRunner {
+/// A world that operations are performed on, one action each: one's own, or one that is shared with others.
+class OperationTarget {
+ public:
+  virtual ~OperationTarget() = default;
+  virtual const world::World& world() const = 0;
+  virtual world::IdSource& ids() = 0;
+  /// Performs the edit of an action that people know by `title`.
+  virtual base::Result<void> act(const world::Edit& edit, const std::string& title) = 0;
+  virtual base::Result<void> undo() = 0;
+  virtual base::Result<void> redo() = 0;
+};
+
+/// Performs {"op": NAME, parameters...}. A failed one changes nothing; the sentence begins with the
+/// operation's name where there is one.
+base::Result<Performed> perform_operation(OperationTarget& target, const Value& command,
+                                          const PictureReader& pictures);
+
+/// Performs operations on a world that it owns, as a person at the desktop would: `icome edit` and tests
+/// drive it, and it undoes and redoes.
+class OperationRunner final : private OperationTarget {
  public:
   explicit OperationRunner(world::World world, PictureReader pictures = {});
 
-  const world::World& world() const { return world_; }
+  const world::World& world() const override { return world_; }
   const world::History& history() const { return history_; }
 
-  /// Performs {"op": NAME, parameters...}. A failed one changes nothing; the sentence begins with the
-  /// operation's name where there is one.
-  base::Result<Performed> perform(const Value& command);
+  /// As perform_operation().
+  base::Result<Performed> perform(const Value& command) {
+    return perform_operation(*this, command, pictures_);
+  }
 
  private:
-  base::Result<Performed> turn(const Operation& operation);
+  world::IdSource& ids() override { return ids_; }
+  base::Result<void> act(const world::Edit& edit, const std::string& title) override {
+    return history_.perform(world_, edit, title);
+  }
+  base::Result<void> undo() override;
+  base::Result<void> redo() override;
 
   world::World world_;
   world::History history_;

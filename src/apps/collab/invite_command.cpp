@@ -1,0 +1,147 @@
+#include "apps/collab/invite_command.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "apps/terminal.h"
+#include "base/parse_number.h"
+#include "collab/link/certificate.h"
+#include "collab/protocol/address.h"
+#include "collab/server/token.h"
+#include "collab/storage/sqlite_op_log.h"
+#include "collab/storage/store_folder.h"
+#include "devices/host_port.h"
+
+namespace icome::apps {
+namespace {
+
+constexpr int kInviteFailed = 1;
+
+base::Result<collab::StoreFolder> store_of(const CollabOptions& options) {
+  auto path = options.store.empty() ? collab::StoreFolder::default_path()
+                                    : base::Result<std::filesystem::path>(options.store);
+  if (!path) return tl::unexpected(path.error());
+  return collab::StoreFolder::open(*path);
+}
+
+/// "90s", "30m", "8h" or "7d" in ms.
+base::Result<std::int64_t> duration_of(std::string_view text) {
+  const auto number = base::number_at_front<double>(text);
+  double seconds = 0.0;
+  if (number.good() && number.rest == "s") seconds = 1.0;
+  if (number.good() && number.rest == "m") seconds = 60.0;
+  if (number.good() && number.rest == "h") seconds = 3'600.0;
+  if (number.good() && number.rest == "d") seconds = 86'400.0;
+  constexpr double kLongest = 10.0 * 366.0 * 86'400.0;
+  const double all = seconds * number.value;
+  if (!(all > 0.0 && all <= kLongest))
+    return base::fail(
+        fmt::format("--for is \"{}\"; it takes a time such as 90s, 30m, 8h or 7d, ten years at most.", text));
+  return std::int64_t(1e3 * all);
+}
+
+collab::Role role_of(const std::string& word) {
+  if (word == "view") return collab::Role::View;
+  return word == "own" ? collab::Role::Own : collab::Role::Edit;
+}
+
+/// Host, port and fingerprint of the address.
+base::Result<collab::DesignAddress> place_of(const CollabOptions& options,
+                                             const collab::StoreFolder& folder) {
+  const auto served = folder.address();
+  if (!served) return tl::unexpected(served.error());
+  collab::DesignAddress address;
+  if (*served) {
+    address.host = (*served)->host;
+    address.port = (*served)->port;
+    address.fingerprint =
+        (*served)->fingerprint.empty() ? std::string(collab::kNoTls) : (*served)->fingerprint;
+  }
+  if (!options.server.empty()) {
+    const auto place = devices::parse_host_port(options.server, {address.host, collab::kUsualPort});
+    if (!place) return base::fail("--server: " + place.error().message);
+    address.host = place->host;
+    address.port = std::uint16_t(place->port);
+  }
+  if (address.host.empty() || address.port == 0)
+    return base::fail(folder.path().string() +
+                      ": nobody has served this store yet: start icome serve, or say --server HOST:PORT.");
+  if (!address.fingerprint.empty()) return address;
+  auto fingerprint = collab::fingerprint_of(folder.certificate());
+  if (!fingerprint) return tl::unexpected(fingerprint.error());
+  address.fingerprint = std::move(*fingerprint);
+  return address;
+}
+
+/// A design that is there, or is made for its owner.
+base::Result<void> ensure_design(const collab::StoreFolder& folder, const std::string& design,
+                                 bool may_make) {
+  auto log = collab::SqliteOpLog::open(folder.designs());
+  if (!log) return tl::unexpected(log.error());
+  const auto found = log->find(design);
+  if (!found) return tl::unexpected(found.error());
+  if (*found) return {};
+  if (!may_make)
+    return base::fail(
+        fmt::format("{}: there is no design \"{}\"; --role own makes one.", folder.path().string(), design));
+  return log->create(design);
+}
+
+}  // namespace
+
+base::Result<std::string> invitation_link(const CollabOptions& options) {
+  if (const auto good = collab::check_design_name(options.design); !good) return tl::unexpected(good.error());
+  const auto lasts = duration_of(options.lasts);
+  if (!lasts) return tl::unexpected(lasts.error());
+  const auto folder = store_of(options);
+  if (!folder) return tl::unexpected(folder.error());
+  auto address = place_of(options, *folder);
+  if (!address) return tl::unexpected(address.error());
+  const collab::Role role = role_of(options.role);
+  if (const auto there = ensure_design(*folder, options.design, role == collab::Role::Own); !there)
+    return tl::unexpected(there.error());
+  auto id = collab::make_invitation_id();
+  if (!id) return tl::unexpected(id.error());
+  const auto signer = collab::TokenSigner::open(folder->token_key());
+  if (!signer) return tl::unexpected(signer.error());
+  auto token = signer->sign({std::move(*id), options.design, role, collab::wall_milliseconds() + *lasts});
+  if (!token) return tl::unexpected(token.error());
+  address->design = options.design;
+  address->token = std::move(*token);
+  return collab::link_text(*address);
+}
+
+int run_invite(const CollabOptions& options) {
+  const auto link = invitation_link(options);
+  if (!link) return tell(link.error().message), kInviteFailed;
+  print(*link + "\n");
+  return 0;
+}
+
+int run_revoke(const CollabOptions& options) {
+  const auto failed = [](const base::Error& error) { return tell(error.message), kInviteFailed; };
+  const auto folder = store_of(options);
+  if (!folder) return failed(folder.error());
+  std::string id = options.link;
+  if (collab::is_design_address(options.link)) {
+    const auto address = collab::design_address(options.link);
+    if (!address) return failed(address.error());
+    const auto signer = collab::TokenSigner::open(folder->token_key());
+    if (!signer) return failed(signer.error());
+    // Whether it has expired does not matter here.
+    const auto invitation = signer->check(address->token, address->design, 0);
+    if (!invitation) return failed({"The link was not made for a design of this store, or is damaged."});
+    id = invitation->id;
+  } else if (id.size() != 32 || id.find_first_not_of("0123456789abcdef") != std::string::npos) {
+    return failed(
+        {fmt::format("\"{}\" is neither a link nor the id of an invitation (32 hexadecimal digits).", id)});
+  }
+  auto log = collab::SqliteOpLog::open(folder->designs());
+  if (!log) return failed(log.error());
+  if (const auto done = log->revoke(id); !done) return failed(done.error());
+  tell("the link lets nobody in any more; a server that runs sends those away who came by it.");
+  return 0;
+}
+
+}  // namespace icome::apps

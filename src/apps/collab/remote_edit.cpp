@@ -1,0 +1,232 @@
+#include "apps/collab/remote_edit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/collab/remote_design.h"
+#include "apps/collab/watched_design.h"
+#include "apps/design/design_work.h"
+#include "apps/design/edit_script.h"
+#include "apps/interrupt.h"
+#include "apps/terminal.h"
+#include "interaction/operations/operation_runner.h"
+#include "session/storage/picture_file.h"
+
+namespace icome::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using interaction::Value;
+
+/// A line of a script that did not come to be.
+struct RefusedLine {
+  std::size_t line;  // from 1
+  std::string why;   // a sentence
+};
+
+/// A design on a server as the target of operations. Refers to the connection.
+class RemoteTarget final : public interaction::OperationTarget {
+ public:
+  explicit RemoteTarget(collab::Conversation& talk)
+      : talk_(talk),
+        ids_(talk.replica().author(), talk.replica().world().next_number(talk.replica().author())) {}
+
+  const world::World& world() const override { return talk_.replica().world(); }
+  world::IdSource& ids() override { return ids_; }
+  base::Result<void> act(const world::Edit& edit, const std::string& title) override {
+    return keep(talk_.perform(edit, title));
+  }
+  base::Result<void> undo() override { return keep(talk_.undo()); }
+  base::Result<void> redo() override { return keep(talk_.redo()); }
+
+  /// The number of the last edit that was made.
+  std::uint64_t last_number() const { return last_number_; }
+
+ private:
+  base::Result<void> keep(const base::Result<std::uint64_t>& number) {
+    if (!number) return tl::unexpected(number.error());
+    last_number_ = *number;
+    return {};
+  }
+
+  collab::Conversation& talk_;
+  world::IdSource ids_;
+  std::uint64_t last_number_ = 0;
+};
+
+/// Performs a script on a shared design and keeps count of what becomes of its lines.
+class RemoteScript {
+ public:
+  RemoteScript(collab::Connection& connection, const EditOptions& options)
+      : connection_(connection), talk_(connection.talk()), target_(talk_), options_(options) {}
+
+  base::Result<void> run(std::string_view text, StatusLine& status) {
+    const auto goes_on = [&](double part) {
+      status.progress("Editing", 100.0 * part, 100.0, "%");
+      return !interrupted();
+    };
+    const auto perform = [this](const Value& command, std::size_t line) {
+      return perform_one(command, line);
+    };
+    const EditOutcome outcome = perform_script(perform, text, true, goes_on);
+    if (outcome.stopped) return base::fail("interrupted");
+    for (const EditError& error : outcome.errors) refused_.push_back({error.line, error.message});
+    if (auto done = wait_until_durable(connection_, status); !done) return done;
+    note(talk_.take_seen());
+    std::ranges::sort(refused_, {}, &RefusedLine::line);
+    return {};
+  }
+
+  /// Takes what has happened into account; it stays to be told.
+  void note(std::vector<collab::Seen> seen) {
+    for (collab::Seen& it : seen) {
+      if (const auto* const durable = std::get_if<collab::SeenDurable>(&it)) {
+        applied_ += durable->own.size();
+      } else if (const auto* const edit = std::get_if<collab::SeenEdit>(&it); edit && edit->number > 0) {
+        sequence_ = edit->sequence;
+      } else if (const auto* const dropped = std::get_if<collab::Dropped>(&it)) {
+        const auto line = lines_.find(dropped->number);
+        refused_.push_back({line == lines_.end() ? 0 : line->second, dropped->why});
+      }
+      seen_.push_back(std::move(it));
+    }
+  }
+
+  std::size_t applied() const { return applied_; }
+  std::uint64_t sequence() const { return sequence_; }
+  const std::vector<RefusedLine>& refused() const { return refused_; }
+  std::vector<collab::Seen> take_seen() { return std::exchange(seen_, {}); }
+
+ private:
+  /// Waits for answers of the server only where the next line may depend on them.
+  base::Result<interaction::Performed> perform_one(const Value& command, std::size_t line) {
+    const Value* const name = command.fields() ? interaction::field(*command.fields(), "op") : nullptr;
+    if (name && name->text() && (*name->text() == "select" || *name->text() == "deselect"))
+      return hold(*command.fields(), *name->text() == "select");
+    constexpr std::size_t kMostPending = 1'000;  // so that the server's other clients are heard, too
+    const std::size_t most = talk_.replica().pending() >= kMostPending ? kMostPending / 2 : kMostPending;
+    const auto has_room = [&] { return talk_.replica().pending() <= most; };
+    if (const auto worked = connection_.work_until(has_room, interrupted, kServerPatience); !worked)
+      return tl::unexpected(worked.error());
+    const std::filesystem::path folder =
+        options_.apply == "-" ? std::filesystem::path() : options_.apply.parent_path();
+    auto done = interaction::perform_operation(
+        target_, command, [&](const std::string& file) { return session::read_picture(folder / file); });
+    if (done) lines_[target_.last_number()] = line;
+    return done;
+  }
+
+  /// Asks for an object, and waits for the answer; or gives it back.
+  base::Result<interaction::Performed> hold(const Value::Fields& fields, bool takes) {
+    const Value* const object = interaction::field(fields, "object");
+    if (!object || !object->text())
+      return base::fail("the object is missing: {\"op\": \"select\", \"object\": \"leg\"}");
+    // What this script has made must be known to the server before it is asked for.
+    const auto is_ordered = [&] { return talk_.replica().pending() == 0; };
+    if (const auto worked = connection_.work_until(is_ordered, interrupted, kServerPatience); !worked)
+      return tl::unexpected(worked.error());
+    const auto id = interaction::named_object(target_.world(), *object->text());
+    if (!id) return tl::unexpected(id.error());
+    const collab::Item item = collab::item_of(*id);
+    if (!takes) {
+      talk_.deselect(item);
+      return interaction::Performed{nullptr, {*id}};
+    }
+    std::optional<collab::Selected> answer;
+    talk_.select(item);
+    const auto is_answered = [&] {
+      std::vector<collab::Seen> seen = talk_.take_seen();
+      for (const collab::Seen& it : seen)
+        if (const auto* const selected = std::get_if<collab::Selected>(&it);
+            selected && selected->item == item)
+          answer = *selected;
+      note(std::move(seen));
+      return answer.has_value();
+    };
+    const auto worked = connection_.work_until(is_answered, interrupted, kServerPatience);
+    if (!worked) return tl::unexpected(worked.error());
+    if (!answer) return base::fail("interrupted");
+    if (!answer->granted) return base::fail("select: " + answer->why);
+    return interaction::Performed{nullptr, {*id}};
+  }
+
+  static constexpr std::chrono::milliseconds kServerPatience{15'000};
+
+  collab::Connection& connection_;
+  collab::Conversation& talk_;
+  RemoteTarget target_;
+  const EditOptions& options_;
+  std::map<std::uint64_t, std::size_t> lines_;  // by the numbers of edits
+  std::vector<RefusedLine> refused_;
+  std::vector<collab::Seen> seen_;
+  std::size_t applied_ = 0;
+  std::uint64_t sequence_ = 0;
+};
+
+std::string outcome_json(const RemoteScript& script) {
+  Json json{{"applied", script.applied()}, {"refused", Json::array()}, {"sequence", script.sequence()}};
+  for (const RefusedLine& it : script.refused())
+    json["refused"].push_back({{"line", it.line}, {"why", it.why}});
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string outcome_text(const RemoteScript& script, const EditOptions& options) {
+  std::string text =
+      fmt::format("{}: {} edit{}, the last is number {} of the design\n", shown_name(options.in),
+                  script.applied(), script.applied() == 1 ? "" : "s", script.sequence());
+  for (const RefusedLine& it : script.refused())
+    text += fmt::format("  {}:{}: {}\n", options.apply.string(), it.line, it.why);
+  return text;
+}
+
+/// Tells what happens until it is asked to end, or the server lets nobody in any more.
+base::Result<void> watch(collab::Connection& connection, std::vector<collab::Seen> seen, bool json) {
+  collab::Conversation& talk = connection.talk();
+  const auto tell_all = [&](const std::vector<collab::Seen>& all) {
+    for (const collab::Seen& it : all)
+      if (const std::string line = watched_line(it, talk, json); !line.empty()) print(line + "\n");
+    std::fflush(stdout);
+  };
+  tell_all(seen);
+  const auto tell_new = [&] {
+    tell_all(talk.take_seen());
+    return false;
+  };
+  constexpr std::chrono::hours kForEver{24 * 365};  // it comes back by itself when the server does
+  const auto worked = connection.work_until(tell_new, interrupted, kForEver);
+  tell_all(talk.take_seen());
+  if (!worked) return tl::unexpected(worked.error());
+  return {};
+}
+
+}  // namespace
+
+int run_remote_edit(const EditOptions& options) {
+  StatusLine status;
+  base::Result<std::string> text = std::string();
+  if (!options.apply.empty()) text = script_text(options);
+  if (!text) return end_without_result(text.error(), status);
+  catch_interrupts();  // not before: Ctrl-C must end a wait for standard input
+  auto connection = join_design(options.in, status);
+  if (!connection) return end_without_result(connection.error(), status);
+  RemoteScript script(**connection, options);
+  if (!options.apply.empty()) {
+    if (const auto done = script.run(*text, status); !done) return end_without_result(done.error(), status);
+    const int printed = print_answer(options.json ? outcome_json(script) : outcome_text(script, options));
+    if (printed != 0) return printed;
+  }
+  if (options.watch)
+    if (const auto done = watch(**connection, script.take_seen(), options.json); !done) {
+      status.clear();
+      tell(done.error().message);
+      return kDesignFailed;
+    }
+  leave_design(**connection);
+  return script.refused().empty() ? 0 : kDesignFailed;
+}
+
+}  // namespace icome::apps

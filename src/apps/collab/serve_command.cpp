@@ -1,0 +1,101 @@
+#include "apps/collab/serve_command.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "apps/collab/invite_command.h"
+#include "apps/interrupt.h"
+#include "apps/terminal.h"
+#include "collab/server/design_server.h"
+#include "collab/storage/sqlite_op_log.h"
+#include "collab/storage/store_folder.h"
+#include "devices/host_port.h"
+
+namespace icome::apps {
+namespace {
+
+constexpr int kServeFailed = 1;
+constexpr const char* kFirstDesign = "design";  // in a store that has none
+
+std::string place_text(const collab::Endpoint& endpoint) {
+  const bool is_ipv6 = endpoint.host.find(':') != std::string::npos;
+  return fmt::format("{}{}{}:{}", is_ipv6 ? "[" : "", endpoint.host, is_ipv6 ? "]" : "", endpoint.port);
+}
+
+base::Result<collab::Endpoint> endpoint_from(const std::string& text, std::uint16_t usual_port) {
+  const auto place = devices::parse_host_port(text, {"127.0.0.1", usual_port});
+  if (!place) return tl::unexpected(place.error());
+  return collab::Endpoint{place->host, std::uint16_t(place->port)};
+}
+
+base::Result<collab::ServeSettings> understood_serve(const CollabOptions& options) {
+  collab::ServeSettings settings;
+  settings.store = options.store;
+  settings.certificate = options.certificate;
+  settings.key = options.key;
+  settings.insecure = options.insecure;
+  settings.origins = options.origins;
+  settings.most_links_an_address = std::size_t(options.links_an_address);
+  const auto listen = endpoint_from(options.listen, collab::kUsualPort);
+  if (!listen) return base::fail("--listen: " + listen.error().message);
+  settings.listen = *listen;
+  if (options.health.empty()) return settings;
+  const auto health = endpoint_from(options.health, 0);
+  if (!health) return base::fail("--health: " + health.error().message);
+  settings.health = *health;
+  return settings;
+}
+
+/// A link to paste for somebody who begins, or how to get one.
+base::Result<std::string> first_words(const collab::DesignServer& server) {
+  auto log = collab::SqliteOpLog::open(server.store() / "designs.sqlite");
+  if (!log) return tl::unexpected(log.error());
+  const auto designs = log->designs();
+  if (!designs) return tl::unexpected(designs.error());
+  if (designs->size() > 1)
+    return fmt::format("{} designs; icome invite NAME --role edit prints a link to one of them.\n",
+                       designs->size());
+  CollabOptions options;
+  options.store = server.store();
+  options.design = designs->empty() ? kFirstDesign : designs->front().name;
+  options.role = "own";
+  const auto link = invitation_link(options);
+  if (!link) return tl::unexpected(link.error());
+  return fmt::format("Open this link, which lasts for {}:\n\n  icome info '{}'\n\n", options.lasts, *link);
+}
+
+base::Result<void> say_where(const collab::DesignServer& server, bool json) {
+  if (json) {
+    nlohmann::ordered_json said{{"listening", place_text(server.endpoint())},
+                                {"fingerprint", server.fingerprint()},
+                                {"store", server.store().string()}};
+    if (const auto health = server.health_endpoint()) said["health"] = place_text(*health);
+    print(said.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  } else {
+    const auto words = first_words(server);
+    if (!words) return tl::unexpected(words.error());
+    print(fmt::format("Serving {} at {}{}\n{}Ctrl-C ends it.\n", server.store().string(),
+                      place_text(server.endpoint()),
+                      server.fingerprint().empty() ? ", without encryption" : "", *words));
+  }
+  if (std::fflush(stdout) != 0) return base::fail("standard output cannot be written.");
+  return {};
+}
+
+}  // namespace
+
+int run_serve_designs(const CollabOptions& options) {
+  catch_interrupts();
+  const auto settings = understood_serve(options);
+  if (!settings) return tell(settings.error().message), kServeFailed;
+  auto server = collab::DesignServer::create(*settings);
+  if (!server) return tell(server.error().message), kServeFailed;
+  if (const auto said = say_where(**server, options.json); !said)
+    return tell(said.error().message), kServeFailed;
+  (*server)->run(interrupted);
+  return 0;
+}
+
+}  // namespace icome::apps
