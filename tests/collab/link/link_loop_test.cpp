@@ -180,7 +180,6 @@ TEST_P(LinkLoopTest, StoppedByAnotherThreadWhileItSends) {
   bench.on_frame = [&](LinkId from, std::string_view) { bench.send(from, sample(200'000)); };
   bench.send(link, sample(200'000));
   for (int i = 0; i < 5; ++i) {
-    const std::size_t before = bench.of(link).frames;
     std::atomic<bool> enough = false;
     std::thread stopper([&] {
       while (!enough) std::this_thread::sleep_for(1ms);
@@ -189,10 +188,9 @@ TEST_P(LinkLoopTest, StoppedByAnotherThreadWhileItSends) {
     bench.loop().after(1ms, [&] { enough = true; });
     bench.loop().run();
     stopper.join();
-    EXPECT_GE(bench.of(link).frames, before);
   }
-  bench.on_frame = nullptr;
-  EXPECT_TRUE(bench.run_until([&] { return bench.of(link).frames > 2 && bench.of(link).to_send.empty(); }));
+  const std::size_t before = bench.of(link).frames;
+  EXPECT_TRUE(bench.run_until([&] { return bench.of(link).frames > before + 2; }));
 }
 
 INSTANTIATE_TEST_SUITE_P(Wires, LinkLoopTest, testing::Values(Wired::Plain, Wired::Tls),

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
-#include <poll.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -84,10 +83,6 @@ class Wire {
 
   /// When the other side was last seen alive: something came, or what had to wait could be sent.
   LinkClock::time_point last_sign() const { return last_sign_; }
-  bool is_readable() {
-    pollfd waiting = {socket_.native_handle(), POLLIN, 0};
-    return ::poll(&waiting, 1, 0) > 0;
-  }
   void woke() {
     channel_.may_read();
     last_sign_ = LinkClock::now();
@@ -400,7 +395,6 @@ class WebLink : public std::enable_shared_from_this<WebLink> {
   bool was_open_ = false;
   bool is_sending_ = false;
   bool is_pinging_ = false;
-  bool had_last_chance_ = false;               // silent for too long, but not read yet
   std::uint32_t timer_turn_ = 0;               // a timer that was set anew may have called already
   std::string name_;                           // of the other side, as sentences have it
   std::string why_;                            // it ends: Closing
@@ -801,19 +795,16 @@ void WebLink::on_time() {
 /// Boost.Beast's own idle time begins anew with all that is sent, so it would not find out who is gone while
 /// much is sent.
 void WebLink::check_idle() {
-  const auto silent =
-      std::chrono::duration_cast<std::chrono::milliseconds>(LinkClock::now() - wire().last_sign());
+  const LinkClock::time_point now = LinkClock::now();
+  const auto silent = std::chrono::duration_cast<std::chrono::milliseconds>(now - wire().last_sign());
   const std::chrono::milliseconds half = limits_.idle_time / 2;
-  if (silent < half) {
-    had_last_chance_ = false;
-    return arm(half - silent + std::chrono::milliseconds(1));
-  }
-  if (silent < limits_.idle_time) {
+  if (silent < half) return arm(half - silent + std::chrono::milliseconds(1));
+  // Who was asked late, as this thread stood still, has as long to answer as others.
+  const bool stood_still = now - timer_.expiry() > half / 4;
+  if (silent < limits_.idle_time || stood_still) {
     ping();
-    return arm(limits_.idle_time - silent + std::chrono::milliseconds(1));
+    return arm(stood_still ? half : limits_.idle_time - silent + std::chrono::milliseconds(1));
   }
-  // This thread may have stood still, and what came waits to be read.
-  if (!std::exchange(had_last_chance_, true) && wire().is_readable()) return arm(half);
   over(fmt::format("Nothing came from {} for {}, not even the answer to a ping, so the connection was ended.",
                    name_, shown_seconds(limits_.idle_time)));
 }
