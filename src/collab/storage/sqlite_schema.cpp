@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <chrono>
+#include <thread>
+
 namespace icome::collab {
 namespace {
 
@@ -93,8 +96,20 @@ base::Result<void> make_tables(const SqliteDatabase& database) {
   });
 }
 
+/// SQLite does not wait for other connections here, as it does elsewhere: several programs may begin at once.
+base::Result<std::string> write_ahead_mode(const SqliteDatabase& database) {
+  constexpr int kMostTries = 1'000;
+  constexpr std::chrono::milliseconds kPause{5};
+  for (int i = 0;; ++i) {
+    auto mode = database.text("PRAGMA journal_mode = WAL");
+    const bool is_busy = !mode && (sqlite3_errcode(database.handle()) & 0xff) == SQLITE_BUSY;
+    if (!is_busy || i == kMostTries) return mode;
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
 base::Result<void> begin_write_ahead(const SqliteDatabase& database) {
-  const auto mode = database.text("PRAGMA journal_mode = WAL");
+  const auto mode = write_ahead_mode(database);
   if (!mode) return tl::unexpected(mode.error());
   if (*mode == "wal") return {};
   return base::fail(
@@ -112,7 +127,8 @@ base::Result<void> demand_store(const SqliteDatabase& database) {
 }
 
 base::Result<void> make_store(const SqliteDatabase& database) {
-  const auto marks = marks_of(database);
+  // All marks of one moment: another process may be making the store.
+  const auto marks = database.transact("BEGIN", [&] { return marks_of(database); });
   if (!marks) return tl::unexpected(marks.error());
   if (!marks->is_empty()) {
     if (const auto good = judge_marks(*marks, database); !good) return good;
