@@ -10,12 +10,12 @@
 #include <sstream>
 #include <string_view>
 
-#include "apps/collab/collab_command.h"
 #include "apps/desktop/desktop_command.h"
 #include "apps/devices/devices_command.h"
 #include "apps/devices/devices_help.h"
 #include "apps/help_text.h"
 #include "apps/number_range.h"
+#include "apps/serving/serving_command.h"
 #include "apps/stats/stats_command.h"
 #include "apps/stats/stats_help.h"
 #include "apps/study/study_command.h"
@@ -44,7 +44,7 @@ struct Entries {
   StudyOptions study;
   TechniquesOptions techniques;
   DevicesOptions devices;
-  CollabOptions collab;
+  ServingOptions serving;
   DesktopCommandOptions desktop;
   TouchOptions touch;
   std::string friction;
@@ -496,7 +496,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   add_stats_options(stats, entries.stats);
   CLI::App& study = *app.add_subcommand("study", kStudySummary);
   add_study_options(study, entries.study);
-  add_collab_commands(app, entries.collab);
+  add_serving_commands(app, entries.serving);
   const CLI::App* const named = named_subcommand(app, 1, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
   if (argc > 1 && argv[1][0] != '-' && named == nullptr && !is_design_name(argv[1]))
@@ -542,8 +542,8 @@ CommandLine parse_command_line(int argc, char** argv) {
     command_line.study = std::move(entries.study);
   } else if (devices.parsed()) {
     command_line.devices = std::move(entries.devices);
-  } else if (!entries.collab.task.empty()) {
-    command_line.collab = std::move(entries.collab);
+  } else if (!entries.serving.task.empty()) {
+    command_line.serving = std::move(entries.serving);
   } else if (techniques.parsed()) {
     auto options = understood_techniques(entries);
     if (!options) return bad_usage(options.error().message, help);

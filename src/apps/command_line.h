@@ -1,12 +1,12 @@
 #pragma once
 #include <optional>
 
-#include "apps/collab/collab_options.h"
 #include "apps/csg/csg_options.h"
 #include "apps/design/design_options.h"
 #include "apps/design/shot_options.h"
 #include "apps/desktop/desktop_options.h"
 #include "apps/devices/devices_options.h"
+#include "apps/serving/serving_options.h"
 #include "apps/stats/stats_options.h"
 #include "apps/study/study_options.h"
 #include "apps/techniques/techniques_options.h"
@@ -27,7 +27,7 @@ struct CommandLine {
   std::optional<StudyOptions> study;
   std::optional<TechniquesOptions> techniques;
   std::optional<DevicesOptions> devices;
-  std::optional<CollabOptions> collab;
+  std::optional<ServingOptions> serving;
   std::optional<DesktopCommandOptions> desktop;
   int exit_code = 0;  // to return when none is set: help or version were printed, or an error
 };

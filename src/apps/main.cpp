@@ -1,7 +1,6 @@
 #include <exception>
 #include <new>
 
-#include "apps/collab/collab_command.h"
 #include "apps/command_line.h"
 #include "apps/csg/csg_command.h"
 #include "apps/design/convert_command.h"
@@ -10,6 +9,7 @@
 #include "apps/design/shot_command.h"
 #include "apps/desktop/desktop_command.h"
 #include "apps/devices/devices_command.h"
+#include "apps/serving/serving_command.h"
 #include "apps/stats/stats_command.h"
 #include "apps/study/study_command.h"
 #include "apps/techniques/techniques_command.h"
@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
     if (command_line.study) return icome::apps::run_study(argc, argv, *command_line.study);
     if (command_line.techniques) return icome::apps::run_techniques(*command_line.techniques);
     if (command_line.devices) return icome::apps::run_devices(*command_line.devices);
-    if (command_line.collab) return icome::apps::run_collab(*command_line.collab);
+    if (command_line.serving) return icome::apps::run_serving(*command_line.serving);
     if (command_line.desktop) return icome::apps::run_desktop_window(argc, argv, *command_line.desktop);
     return command_line.exit_code;
   } catch (const std::bad_alloc&) {

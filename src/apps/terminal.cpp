@@ -34,4 +34,11 @@ void print(std::string_view text) {
   std::fwrite(shown.data(), 1, shown.size(), stdout);
 }
 
+int print_answer(std::string_view text) {
+  print(text);
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
+  tell("standard output cannot be written: is the disk full?");
+  return kFailed;
+}
+
 }  // namespace icome::apps

@@ -14,5 +14,9 @@ void tell(std::string_view sentence);
 bool ask(std::string_view question);
 /// On standard output: a report or JSON.
 void print(std::string_view text);
+/// As print(); gives the exit code, kFailed where standard output cannot be written.
+int print_answer(std::string_view text);
+
+constexpr int kFailed = 1;  // exit code: something could not be done
 
 }  // namespace icome::apps

@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/collab/remote_design.h"
 #include "apps/design/design_figures.h"
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
+#include "apps/remote/remote_design.h"
 #include "apps/touch/touch_report.h"
 #include "files/design_files.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "apps/collab/remote_design.h"
 #include "apps/interrupt.h"
+#include "apps/remote/remote_design.h"
 #include "apps/terminal.h"
 #include "files/design_files.h"
 #include "files/mesh/mesh_reader.h"
@@ -74,13 +74,6 @@ int end_without_result(const base::Error& error, StatusLine& status) {
   status.clear();
   tell(interrupted() ? "interrupted: nothing was written." : error.message);
   return interrupted() ? kDesignInterrupted : kDesignFailed;
-}
-
-int print_answer(const std::string& text) {
-  print(text);
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
-  tell("standard output cannot be written: is the disk full?");
-  return kDesignFailed;
 }
 
 }  // namespace icome::apps

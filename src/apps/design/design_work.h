@@ -5,13 +5,14 @@
 
 #include "apps/design/design_options.h"
 #include "apps/status_line.h"
+#include "apps/terminal.h"
 #include "files/design.h"
 
 namespace icome::apps {
 
 // Functions that the commands on whole designs share.
 
-constexpr int kDesignFailed = 1;
+constexpr int kDesignFailed = kFailed;
 constexpr int kDesignInterrupted = 130;  // what shells report for Ctrl-C
 
 /// The reading options of the command line, as readers take them.
@@ -34,8 +35,5 @@ base::Result<void> check_picture_name(const std::filesystem::path& picture);
 
 /// Tells on standard error why there is no result, and gives the exit code.
 int end_without_result(const base::Error& error, StatusLine& status);
-
-/// Prints the answer; gives the exit code.
-int print_answer(const std::string& text);
 
 }  // namespace icome::apps

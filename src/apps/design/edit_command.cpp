@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "apps/collab/remote_design.h"
-#include "apps/collab/remote_edit.h"
 #include "apps/design/design_figures.h"
 #include "apps/design/design_work.h"
 #include "apps/design/edit_script.h"
 #include "apps/design/operation_list.h"
 #include "apps/interrupt.h"
+#include "apps/remote/remote_design.h"
+#include "apps/remote/remote_edit.h"
 #include "apps/stopwatch.h"
 #include "apps/terminal.h"
 #include "apps/touch/touch_report.h"

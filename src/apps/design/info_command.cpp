@@ -1,9 +1,9 @@
 #include "apps/design/info_command.h"
 
-#include "apps/collab/remote_design.h"
 #include "apps/design/design_figures.h"
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
+#include "apps/remote/remote_design.h"
 #include "apps/stopwatch.h"
 
 namespace icome::apps {

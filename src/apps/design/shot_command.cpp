@@ -8,9 +8,9 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/collab/remote_design.h"
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
+#include "apps/remote/remote_design.h"
 #include "apps/stopwatch.h"
 #include "apps/terminal.h"
 #include "apps/touch/touch_report.h"

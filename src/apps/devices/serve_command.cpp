@@ -12,7 +12,7 @@
 #include "apps/interrupt.h"
 #include "apps/terminal.h"
 #include "devices/catalogue.h"
-#include "devices/host_port.h"
+#include "io/host_port.h"
 #include "devices/simulated/simulated_device.h"
 #include "session/probe/device_sharing.h"
 
@@ -53,7 +53,7 @@ base::Result<Devices> open_all(const DevicesOptions& options) {
 base::Result<devices::VrpnServerSettings> place_of(const std::string& text, std::size_t devices) {
   devices::VrpnServerSettings settings;
   const bool port_alone = text.find(':') == std::string::npos;
-  const auto place = devices::parse_host_port(port_alone ? ":" + text : text, {settings.host, settings.port});
+  const auto place = io::parse_host_port(port_alone ? ":" + text : text, {settings.host, settings.port});
   if (!place)
     return base::fail(
         fmt::format("--vrpn {}: say HOST:PORT, such as 127.0.0.1:3883; port 0 takes a free one.", text));

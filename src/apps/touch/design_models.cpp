@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "apps/collab/remote_design.h"
+#include "apps/remote/remote_design.h"
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
 #include "apps/stopwatch.h"
@@ -208,7 +208,7 @@ base::Result<TouchModel> load_design(const std::string& text, const TouchOptions
   const auto design = read_file(text, options);
   if (!design) return tl::unexpected(design.error());
   TouchModel model;
-  model.name = text;
+  model.name = shown_name(text);
   model.read_seconds = reading.seconds();
   session::HapticRepresentationSettings settings;
   settings.felt = {.tip_radius = options.radius,

@@ -32,7 +32,6 @@
 namespace icome::apps {
 namespace {
 
-constexpr int kFailed = 1;
 constexpr int kInterrupted = 130;  // what shells report for Ctrl-C
 
 /// Everything that a run needs, prepared before it begins.

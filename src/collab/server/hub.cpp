@@ -107,7 +107,11 @@ void Hub::received(LinkId id, std::string_view frame, std::int64_t now, std::int
     } else if (const auto over = end_of_invitation(link)) {
       return refuse(id, link, *over, Parting::NotAllowed);
     } else if (link.design && link.design->room) {
-      link.design->room->receive(id, std::move(*message), now, at);
+      Room& room = *link.design->room;
+      const std::uint64_t sequence = room.sequence(), refused = room.refused();
+      room.receive(id, std::move(*message), now, at);
+      counters_.accepted_edits += room.sequence() - sequence;
+      counters_.refused_edits += room.refused() - refused;
       stir(link.design);
     }
   }

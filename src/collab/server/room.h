@@ -96,6 +96,8 @@ class Room {
   const world::World& world() const { return world_; }
   std::uint64_t sequence() const { return sequence_; }
   std::uint64_t durable() const { return durable_; }
+  /// Edits that were refused so far.
+  std::uint64_t refused() const { return refused_; }
   const Floor& floor() const { return floor_; }
   bool has(LinkId link) const { return members_.contains(link); }
   std::size_t members() const { return members_.size(); }
@@ -172,6 +174,7 @@ class Room {
   void order(Member& member, const Submit& message, world::Edit edit, std::int64_t at);
   void append_to_tail(std::uint32_t author, std::uint64_t number, std::string bytes, world::Edit edit);
   void floor_follows(const world::Edit& edit);
+  void reject(Member& member, const Submit& message, const std::string& why, std::uint32_t whose);
   void tell(Member& member, const ServerMessage& message);
   void tell_all(const ServerMessage& message, const Member* but = nullptr);
   void tell_free(const std::vector<Hold>& holds);
@@ -201,6 +204,7 @@ class Room {
   std::unordered_map<Item, Change> changed_;
   std::vector<LogEntry> entries_;
   std::uint64_t presence_version_ = 0;
+  std::uint64_t refused_ = 0;
 };
 
 }  // namespace icome::collab

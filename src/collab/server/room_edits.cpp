@@ -81,10 +81,14 @@ void Room::handle(Member& member, Submit& message, std::int64_t at) {
   if (message.number <= author.last_number) return;  // sent again after a connection was lost
   author.last_number = message.number;
   auto edit = world::edit_from_bytes(message.edit, factory_);
-  if (!edit) return tell(member, Rejected{message.number, edit.error().message, 0});
-  if (const auto why = refusal(member, message, *edit))
-    return tell(member, Rejected{message.number, why->why, why->whose});
+  if (!edit) return reject(member, message, edit.error().message, 0);
+  if (const auto why = refusal(member, message, *edit)) return reject(member, message, why->why, why->whose);
   order(member, message, std::move(*edit), at);
+}
+
+void Room::reject(Member& member, const Submit& message, const std::string& why, std::uint32_t whose) {
+  ++refused_;
+  tell(member, Rejected{message.number, why, whose});
 }
 
 std::optional<Room::Refusal> Room::refusal(const Member& member, const Submit& message,
@@ -131,7 +135,7 @@ std::optional<Room::Refusal> Room::fenced(const Member& member, const Submit& me
 
 void Room::order(Member& member, const Submit& message, world::Edit edit, std::int64_t at) {
   if (const auto done = apply_fitted(world_, edit); !done)
-    return tell(member, Rejected{message.number, done.error().message, 0});
+    return reject(member, message, done.error().message, 0);
   entries_.push_back({sequence_ + 1, member.who.author, message.number, at, message.edit});
   append_to_tail(member.who.author, message.number, message.edit, std::move(edit));
   if (!floor_.holds().empty() || !floor_.waiting().empty()) floor_follows(tail_.back().edit);

@@ -5,8 +5,8 @@
 #include "base/parse_number.h"
 #include "devices/axes.h"
 #include "devices/device_profiles.h"
-#include "devices/host_port.h"
 #include "devices/vrpn/protocol.h"
+#include "io/host_port.h"
 
 namespace icome::devices {
 namespace vrpn {
@@ -91,7 +91,7 @@ base::Result<VrpnAddress> VrpnAddress::parse(std::string_view text) {
   if (address.name.size() > vrpn::kLongestName)
     return base::fail("'" + address.name + "': names of VRPN devices have 100 letters at most");
   if (place.starts_with("tcp://")) place.remove_prefix(6);  // as programs of VRPN write it
-  const auto server = parse_host_port(place, {address.host, address.port});
+  const auto server = io::parse_host_port(place, {address.host, address.port});
   if (!server) return base::fail(server.error().message + vrpn::kExample);
   if (server->port == 0) return base::fail("no server is at port 0" + std::string(vrpn::kExample));
   address.host = server->host;

@@ -1,9 +1,9 @@
 #pragma once
-#include "apps/collab/collab_options.h"
+#include "apps/serving/serving_options.h"
 
 namespace icome::apps {
 
 /// Runs `icome serve`, until Ctrl-C or SIGTERM. Returns the exit code.
-int run_serve_designs(const CollabOptions& options);
+int run_serve_designs(const ServingOptions& options);
 
 }  // namespace icome::apps

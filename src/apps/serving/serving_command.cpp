@@ -1,24 +1,24 @@
-#include "apps/collab/collab_command.h"
+#include "apps/serving/serving_command.h"
 
 #include <CLI/CLI.hpp>
 
-#include "apps/collab/collab_help.h"
-#include "apps/collab/invite_command.h"
-#include "apps/collab/serve_command.h"
-#include "apps/collab/store_command.h"
 #include "apps/number_range.h"
+#include "apps/serving/invite_command.h"
+#include "apps/serving/serve_command.h"
+#include "apps/serving/serving_help.h"
+#include "apps/serving/store_command.h"
 
 namespace icome::apps {
 namespace {
 
-void add_store_folder(CLI::App& command, CollabOptions& options) {
+void add_store_folder(CLI::App& command, ServingOptions& options) {
   command
       .add_option("--store", options.store,
                   "Folder with the designs (default: icome/store in $XDG_DATA_HOME or ~/.local/share)")
       ->type_name("FOLDER");
 }
 
-void add_serve(CLI::App& app, CollabOptions& options) {
+void add_serve(CLI::App& app, ServingOptions& options) {
   CLI::App& serve = *app.add_subcommand("serve", kServeSummary);
   serve.footer(kServeNotes);
   add_store_folder(serve, options);
@@ -47,7 +47,7 @@ void add_serve(CLI::App& app, CollabOptions& options) {
   serve.callback([&options] { options.task = "serve"; });
 }
 
-void add_invite(CLI::App& app, CollabOptions& options) {
+void add_invite(CLI::App& app, ServingOptions& options) {
   CLI::App& invite = *app.add_subcommand("invite", kInviteSummary);
   invite.footer(kInviteNotes);
   invite.add_option("DESIGN", options.design, "The name of the design")->required()->type_name("");
@@ -71,7 +71,7 @@ void add_invite(CLI::App& app, CollabOptions& options) {
 }
 
 /// A command of `icome store`.
-CLI::App& add_store_task(CLI::App& store, CollabOptions& options, const std::string& task,
+CLI::App& add_store_task(CLI::App& store, ServingOptions& options, const std::string& task,
                          const std::string& summary) {
   CLI::App& command = *store.add_subcommand(task, summary);
   add_store_folder(command, options);
@@ -79,7 +79,7 @@ CLI::App& add_store_task(CLI::App& store, CollabOptions& options, const std::str
   return command;
 }
 
-void add_store(CLI::App& app, CollabOptions& options) {
+void add_store(CLI::App& app, ServingOptions& options) {
   CLI::App& store = *app.add_subcommand("store", kStoreSummary);
   store.footer(kStoreNotes);
   store.require_subcommand(1);
@@ -102,13 +102,13 @@ void add_store(CLI::App& app, CollabOptions& options) {
 
 }  // namespace
 
-void add_collab_commands(CLI::App& app, CollabOptions& options) {
+void add_serving_commands(CLI::App& app, ServingOptions& options) {
   add_serve(app, options);
   add_invite(app, options);
   add_store(app, options);
 }
 
-int run_collab(const CollabOptions& options) {
+int run_serving(const ServingOptions& options) {
   if (options.task == "serve") return run_serve_designs(options);
   if (options.task == "invite") return run_invite(options);
   if (options.task == "revoke") return run_revoke(options);

@@ -1,4 +1,4 @@
-#include "apps/collab/watched_design.h"
+#include "apps/remote/watched_design.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
-#include "devices/host_port.h"
+#include "io/host_port.h"
 
 #include <gtest/gtest.h>
 
-namespace icome::devices {
+namespace icome::io {
 namespace {
 
 TEST(HostPort, WhatIsLeftOutIsAsUsual) {
@@ -30,4 +30,4 @@ TEST(HostPort, WhatMakesNoSenseIsToldInASentence) {
 }
 
 }  // namespace
-}  // namespace icome::devices
+}  // namespace icome::io

@@ -6,7 +6,7 @@
 namespace icome::apps {
 
 /// The options of `icome serve`, `invite`, `revoke` and `store`, as the command line gives them.
-struct CollabOptions {
+struct ServingOptions {
   std::string task;             // "serve", "invite", "revoke", "store list", "store check" and so on
   std::filesystem::path store;  // a folder; empty: the usual one
   // serve

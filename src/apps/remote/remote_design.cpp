@@ -1,4 +1,4 @@
-#include "apps/collab/remote_design.h"
+#include "apps/remote/remote_design.h"
 
 #include <fmt/format.h>
 

@@ -1,13 +1,10 @@
-#include "apps/collab/store_command.h"
+#include "apps/serving/store_command.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "apps/design/design_work.h"
-#include "apps/interrupt.h"
 #include "apps/terminal.h"
-#include "apps/touch/touch_report.h"
 #include "collab/server/room.h"
 #include "collab/storage/sqlite_op_log.h"
 #include "collab/storage/store_care.h"
@@ -36,8 +33,7 @@ base::Result<int> list_designs(const collab::StoreFolder& folder, bool json) {
                                  {"sequence", row.sequence},
                                  {"snapshot_sequence", row.snapshot_sequence},
                                  {"bytes", row.bytes}});
-    text += fmt::format("  {:30} {:>12} edits {:>14} bytes\n", row.name, grouped(row.sequence),
-                        grouped(row.bytes));
+    text += fmt::format("  {:30} {:>12} edits {:>14} bytes\n", row.name, row.sequence, row.bytes);
   }
   return print_answer(json ? dumped(report) : text);
 }
@@ -50,10 +46,10 @@ base::Result<int> check_designs(const collab::StoreFolder& folder, bool json) {
   for (const std::string& finding : *findings) text += finding + "\n";
   if (findings->empty()) text = folder.path().string() + ": all is well.\n";
   const int printed = print_answer(json ? dumped(report) : text);
-  return findings->empty() ? printed : kDesignFailed;
+  return findings->empty() ? printed : kFailed;
 }
 
-base::Result<int> restore_designs(const CollabOptions& options, const collab::StoreFolder& folder) {
+base::Result<int> restore_designs(const ServingOptions& options, const collab::StoreFolder& folder) {
   const auto lock = folder.lock();
   if (!lock) return tl::unexpected(lock.error());
   const auto former = collab::restore_store(options.file, folder.designs());
@@ -77,7 +73,7 @@ base::Result<world::World> logged_world(collab::OpLog& log, const std::string& d
   return (*room)->world();
 }
 
-base::Result<int> export_design(const CollabOptions& options, const collab::StoreFolder& folder) {
+base::Result<int> export_design(const ServingOptions& options, const collab::StoreFolder& folder) {
   if (const auto able = files::check_can_write(options.file); !able) return tl::unexpected(able.error());
   auto log = collab::SqliteOpLog::open(folder.designs());
   if (!log) return tl::unexpected(log.error());
@@ -85,7 +81,7 @@ base::Result<int> export_design(const CollabOptions& options, const collab::Stor
   if (!world) return tl::unexpected(world.error());
   const auto losses = files::write_design(options.file, *world);
   if (!losses) return tl::unexpected(losses.error());
-  for (const std::string& sentence : first_sentences(*losses, options.file.string())) tell(sentence);
+  for (const files::Remark& remark : *losses) tell(files::sentence(remark, options.file.string()));
   return 0;
 }
 
@@ -94,7 +90,7 @@ base::Result<int> done_or_why(const base::Result<void>& done) {
   return 0;
 }
 
-base::Result<int> store_task(const CollabOptions& options) {
+base::Result<int> store_task(const ServingOptions& options) {
   auto path = options.store.empty() ? collab::StoreFolder::default_path()
                                     : base::Result<std::filesystem::path>(options.store);
   if (!path) return tl::unexpected(path.error());
@@ -110,11 +106,11 @@ base::Result<int> store_task(const CollabOptions& options) {
 
 }  // namespace
 
-int run_store(const CollabOptions& options) {
+int run_store(const ServingOptions& options) {
   const auto done = store_task(options);
   if (done) return *done;
   tell(done.error().message);
-  return kDesignFailed;
+  return kFailed;
 }
 
 }  // namespace icome::apps

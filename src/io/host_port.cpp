@@ -1,9 +1,9 @@
-#include "devices/host_port.h"
+#include "io/host_port.h"
 
 #include "base/parse_number.h"
 #include "base/shown_text.h"
 
-namespace icome::devices {
+namespace icome::io {
 
 base::Result<HostPort> parse_host_port(std::string_view text, const HostPort& usual) {
   const auto refused = [text](const char* why) {
@@ -27,4 +27,4 @@ base::Result<HostPort> parse_host_port(std::string_view text, const HostPort& us
   return place;
 }
 
-}  // namespace icome::devices
+}  // namespace icome::io

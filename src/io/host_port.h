@@ -4,7 +4,7 @@
 
 #include "base/result.h"
 
-namespace icome::devices {
+namespace icome::io {
 
 /// A computer, or an address of this one, and a port there.
 struct HostPort {
@@ -16,4 +16,4 @@ struct HostPort {
 /// what is wrong with the text.
 base::Result<HostPort> parse_host_port(std::string_view text, const HostPort& usual);
 
-}  // namespace icome::devices
+}  // namespace icome::io

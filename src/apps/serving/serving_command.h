@@ -1,5 +1,5 @@
 #pragma once
-#include "apps/collab/collab_options.h"
+#include "apps/serving/serving_options.h"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
 class App;
@@ -8,9 +8,9 @@ class App;
 namespace icome::apps {
 
 /// The subcommands `serve`, `invite`, `revoke` and `store`, which set `options`.
-void add_collab_commands(CLI::App& app, CollabOptions& options);
+void add_serving_commands(CLI::App& app, ServingOptions& options);
 
 /// Runs one of them. Returns the program's exit code.
-int run_collab(const CollabOptions& options);
+int run_serving(const ServingOptions& options);
 
 }  // namespace icome::apps

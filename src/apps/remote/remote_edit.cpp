@@ -1,4 +1,4 @@
-#include "apps/collab/remote_edit.h"
+#include "apps/remote/remote_edit.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "apps/collab/remote_design.h"
-#include "apps/collab/watched_design.h"
 #include "apps/design/design_work.h"
 #include "apps/design/edit_script.h"
 #include "apps/interrupt.h"
+#include "apps/remote/remote_design.h"
+#include "apps/remote/watched_design.h"
 #include "apps/terminal.h"
 #include "interaction/operations/operation_runner.h"
 #include "session/storage/picture_file.h"

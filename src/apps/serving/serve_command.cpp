@@ -1,22 +1,21 @@
-#include "apps/collab/serve_command.h"
+#include "apps/serving/serve_command.h"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "apps/collab/invite_command.h"
 #include "apps/interrupt.h"
+#include "apps/serving/invite_command.h"
 #include "apps/terminal.h"
 #include "collab/server/design_server.h"
 #include "collab/storage/sqlite_op_log.h"
 #include "collab/storage/store_folder.h"
-#include "devices/host_port.h"
+#include "io/host_port.h"
 
 namespace icome::apps {
 namespace {
 
-constexpr int kServeFailed = 1;
 constexpr const char* kFirstDesign = "design";  // in a store that has none
 
 std::string place_text(const collab::Endpoint& endpoint) {
@@ -25,12 +24,12 @@ std::string place_text(const collab::Endpoint& endpoint) {
 }
 
 base::Result<collab::Endpoint> endpoint_from(const std::string& text, std::uint16_t usual_port) {
-  const auto place = devices::parse_host_port(text, {"127.0.0.1", usual_port});
+  const auto place = io::parse_host_port(text, {"127.0.0.1", usual_port});
   if (!place) return tl::unexpected(place.error());
   return collab::Endpoint{place->host, std::uint16_t(place->port)};
 }
 
-base::Result<collab::ServeSettings> understood_serve(const CollabOptions& options) {
+base::Result<collab::ServeSettings> understood_serve(const ServingOptions& options) {
   collab::ServeSettings settings;
   settings.store = options.store;
   settings.certificate = options.certificate;
@@ -57,7 +56,7 @@ base::Result<std::string> first_words(const collab::DesignServer& server) {
   if (designs->size() > 1)
     return fmt::format("{} designs; icome invite NAME --role edit prints a link to one of them.\n",
                        designs->size());
-  CollabOptions options;
+  ServingOptions options;
   options.store = server.store();
   options.design = designs->empty() ? kFirstDesign : designs->front().name;
   options.role = "own";
@@ -86,14 +85,13 @@ base::Result<void> say_where(const collab::DesignServer& server, bool json) {
 
 }  // namespace
 
-int run_serve_designs(const CollabOptions& options) {
+int run_serve_designs(const ServingOptions& options) {
   catch_interrupts();
   const auto settings = understood_serve(options);
-  if (!settings) return tell(settings.error().message), kServeFailed;
+  if (!settings) return tell(settings.error().message), kFailed;
   auto server = collab::DesignServer::create(*settings);
-  if (!server) return tell(server.error().message), kServeFailed;
-  if (const auto said = say_where(**server, options.json); !said)
-    return tell(said.error().message), kServeFailed;
+  if (!server) return tell(server.error().message), kFailed;
+  if (const auto said = say_where(**server, options.json); !said) return tell(said.error().message), kFailed;
   (*server)->run(interrupted);
   return 0;
 }

@@ -1,4 +1,4 @@
-#include "apps/collab/invite_command.h"
+#include "apps/serving/invite_command.h"
 
 #include <fmt/format.h>
 
@@ -11,14 +11,12 @@
 #include "collab/server/token.h"
 #include "collab/storage/sqlite_op_log.h"
 #include "collab/storage/store_folder.h"
-#include "devices/host_port.h"
+#include "io/host_port.h"
 
 namespace icome::apps {
 namespace {
 
-constexpr int kInviteFailed = 1;
-
-base::Result<collab::StoreFolder> store_of(const CollabOptions& options) {
+base::Result<collab::StoreFolder> store_of(const ServingOptions& options) {
   auto path = options.store.empty() ? collab::StoreFolder::default_path()
                                     : base::Result<std::filesystem::path>(options.store);
   if (!path) return tl::unexpected(path.error());
@@ -47,7 +45,7 @@ collab::Role role_of(const std::string& word) {
 }
 
 /// Host, port and fingerprint of the address.
-base::Result<collab::DesignAddress> place_of(const CollabOptions& options,
+base::Result<collab::DesignAddress> place_of(const ServingOptions& options,
                                              const collab::StoreFolder& folder) {
   const auto served = folder.address();
   if (!served) return tl::unexpected(served.error());
@@ -59,7 +57,7 @@ base::Result<collab::DesignAddress> place_of(const CollabOptions& options,
         (*served)->fingerprint.empty() ? std::string(collab::kNoTls) : (*served)->fingerprint;
   }
   if (!options.server.empty()) {
-    const auto place = devices::parse_host_port(options.server, {address.host, collab::kUsualPort});
+    const auto place = io::parse_host_port(options.server, {address.host, collab::kUsualPort});
     if (!place) return base::fail("--server: " + place.error().message);
     address.host = place->host;
     address.port = std::uint16_t(place->port);
@@ -90,7 +88,7 @@ base::Result<void> ensure_design(const collab::StoreFolder& folder, const std::s
 
 }  // namespace
 
-base::Result<std::string> invitation_link(const CollabOptions& options) {
+base::Result<std::string> invitation_link(const ServingOptions& options) {
   if (const auto good = collab::check_design_name(options.design); !good) return tl::unexpected(good.error());
   const auto lasts = duration_of(options.lasts);
   if (!lasts) return tl::unexpected(lasts.error());
@@ -112,15 +110,15 @@ base::Result<std::string> invitation_link(const CollabOptions& options) {
   return collab::link_text(*address);
 }
 
-int run_invite(const CollabOptions& options) {
+int run_invite(const ServingOptions& options) {
   const auto link = invitation_link(options);
-  if (!link) return tell(link.error().message), kInviteFailed;
+  if (!link) return tell(link.error().message), kFailed;
   print(*link + "\n");
   return 0;
 }
 
-int run_revoke(const CollabOptions& options) {
-  const auto failed = [](const base::Error& error) { return tell(error.message), kInviteFailed; };
+int run_revoke(const ServingOptions& options) {
+  const auto failed = [](const base::Error& error) { return tell(error.message), kFailed; };
   const auto folder = store_of(options);
   if (!folder) return failed(folder.error());
   std::string id = options.link;
