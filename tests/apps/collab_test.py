@@ -104,6 +104,34 @@ class ServeTest(SharedTest):
         self.assertNotIn(link.split("token=")[1].split("&")[0], text)
 
 
+class ServerProgramTest(SharedTest):
+    """icome-server, the program for machines without a display."""
+    SERVER = pathlib.Path(PROGRAM).with_name("icome-server")
+
+    def test_it_needs_no_library_of_displays_and_devices(self):
+        linked = subprocess.run(["ldd", self.SERVER], capture_output=True, text=True, check=True).stdout
+        for library in ("Qt6", "libX11", "libxcb", "wayland", "libGL", "libEGL", "OpenCSG", "GLEW", "cairo", "asound",
+                        "spnav", "evdev"):
+            self.assertNotIn(library, linked)
+        self.assertIn("libsqlite3", linked)
+
+    def test_it_serves_as_icome_does(self):
+        server = self.serve(program=str(self.SERVER))
+        link = server.invite()
+        self.edit(link, BOX)
+        self.assertEqual(self.names(link), ["box"])
+        invited = subprocess.run([self.SERVER, "invite", "table", "--role", "view", "--store", self.store],
+                                 capture_output=True, text=True, check=True).stdout
+        self.assertEqual(self.names(invited.strip()), ["box"])
+        self.assertEqual(server.end()[0], 0)
+
+    def test_its_help_teaches(self):
+        for words in ([], ["serve"], ["invite"], ["store"]):
+            done = subprocess.run([self.SERVER, *words, "--help"], capture_output=True, text=True, check=True)
+            self.assertIn("icome", done.stdout)
+        self.assertEqual(subprocess.run([self.SERVER], capture_output=True).returncode, 2)
+
+
 class LinkTest(SharedTest):
     def test_an_invitation_is_a_link_and_nothing_else(self):
         server = self.serve()

@@ -15,7 +15,7 @@
 namespace icome::apps {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience{15'000};  // with a server that is not to be reached
+constexpr std::chrono::milliseconds kJoinPatience{3'000};  // with a server that is not to be reached
 
 std::string person_of_this_machine() {
   for (const char* const name : {"ICOME_NAME", "USER", "LOGNAME"})
@@ -35,12 +35,12 @@ base::Result<collab::ClientIdentity> identity_of_this_run() {
 
 /// Works until `done`; an interruption is a failure.
 base::Result<void> work(collab::Connection& connection, const std::function<bool()>& done,
-                        const std::function<void()>& show) {
+                        const std::function<void()>& show, std::chrono::milliseconds patience) {
   const auto stops = [&] {
     show();
     return interrupted();
   };
-  const auto worked = connection.work_until(done, stops, kPatience);
+  const auto worked = connection.work_until(done, stops, patience);
   if (!worked) return tl::unexpected(worked.error());
   if (!*worked) return base::fail("interrupted");
   return {};
@@ -69,7 +69,7 @@ base::Result<std::unique_ptr<collab::Connection>> join_design(const std::string&
     if (talk.progress() > 0.0) status.progress("Reading", std::round(100.0 * talk.progress()), 100.0, "%");
   };
   const auto is_live = [&] { return talk.state() == collab::ConversationState::Live; };
-  const auto joined = work(**connection, is_live, show);
+  const auto joined = work(**connection, is_live, show, kJoinPatience);
   status.clear();
   if (!joined) return tl::unexpected(joined.error());
   return connection;
@@ -118,7 +118,7 @@ base::Result<void> wait_until_durable(collab::Connection& connection, StatusLine
     status.progress("Saving", all - double(talk.replica().unacknowledged()), all, "edits");
   };
   const auto done = work(
-      connection, [&] { return talk.replica().unacknowledged() == 0; }, show);
+      connection, [&] { return talk.replica().unacknowledged() == 0; }, show, kServerPatience);
   status.clear();
   return done;
 }

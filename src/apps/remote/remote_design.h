@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,6 +12,9 @@
 namespace icome::apps {
 
 // Designs on servers, wherever a command takes a design's file.
+
+/// How long work that has begun waits for a server that is gone to come back.
+inline constexpr std::chrono::milliseconds kServerPatience{60'000};
 
 /// Is it the address of a design on a server?
 bool is_remote(const std::filesystem::path& design);

@@ -154,8 +154,6 @@ class RemoteScript {
     return interaction::Performed{nullptr, {*id}};
   }
 
-  static constexpr std::chrono::milliseconds kServerPatience{15'000};
-
   collab::Connection& connection_;
   collab::Conversation& talk_;
   RemoteTarget target_;
