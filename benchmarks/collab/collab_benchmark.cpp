@@ -1,11 +1,13 @@
-// Measures how many edits a second the store of designs makes durable, and how long each waits. One run, one
-// table.
+// Measures a server with many clients who drag, and how many edits a second the store of designs makes
+// durable.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
+#include "crowd_figures.h"
 #include "store_figures.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures the store of designs. Takes half a minute.");
+  CLI::App app("Measures the server and the store of designs. Takes a minute.");
   bool is_quick = false;
   std::string folder = std::filesystem::temp_directory_path().string();
   app.add_flag("--quick", is_quick, "A short run: does it work at all?");
@@ -14,6 +16,13 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   using namespace icome::benchmarks;
   StoreExtent extent;
-  if (is_quick) extent.seconds = 0.1;
+  CrowdExtent crowd;
+  if (is_quick) {
+    extent.seconds = 0.1;
+    crowd = {.seconds = 0.2, .clients = {3}, .grants = 5};
+  }
+  // Built beside this program.
+  const auto program = std::filesystem::canonical("/proc/self/exe").parent_path() / "icome-server";
+  print_table(crowd_figures(program, folder, crowd), crowd);
   print_table(store_figures(folder, extent), extent, folder);
 }

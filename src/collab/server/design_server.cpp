@@ -17,7 +17,7 @@ namespace {
 constexpr std::int64_t kTick = 100;            // ms
 constexpr std::int64_t kMostStopping = 5'000;  // ms for clients to go and for the log to end
 constexpr std::int64_t kBusyFrames = 400;      // in a tick: from then on what is to be said is gathered
-constexpr std::int64_t kBusyPause = 8;         // ms between two frames to a client, when busy
+constexpr std::int64_t kBusyPause = 10;        // ms between two frames to a client, when busy
 constexpr const char* kEmbeddedHolder = "the server of this folder";
 
 std::int64_t steady_milliseconds() { return base::steady_nanoseconds() / 1'000'000; }
