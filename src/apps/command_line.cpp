@@ -168,7 +168,20 @@ void add_run_options(CLI::App& touch, Entries& entries) {
       .add_option("--path", options.path,
                   "Replay tip positions from a CSV file: t,x,y,z in s and m, one row a tick")
       ->type_name("PATH.csv");
-  touch.add_option("--device", options.device, kDeviceHelp)->type_name("NAME");
+  touch
+      .add_option_function<std::vector<std::string>>(
+          "--device",
+          [&options](const std::vector<std::string>& names) {
+            if (names.size() > 1)
+              throw CLI::ValidationError(
+                  "--device",
+                  "a run touches with one device; the window takes several, as in icome "
+                  "MODEL --device A --device B");
+            options.device = names.front();
+          },
+          kDeviceHelp)
+      ->type_name("NAME")
+      ->allow_extra_args(false);
   touch
       .add_option(
           "--hand-scale", options.hand_scale,

@@ -17,6 +17,7 @@ struct DeviceEntry {
   bool present = false;
   std::string
       why;  // absent: what is missing and what to do, in a sentence or two; present: what it is, or empty
+  std::string identity{};  // Driver::identity() of the device once it is open; empty: not known
 };
 
 /// One way to devices, such as a maker's library.

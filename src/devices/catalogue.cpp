@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "devices/device_profiles.h"
+#include "devices/driver/driven_device.h"
 #include "devices/evdev/back_ends.h"
 #include "devices/evdev/gamepad_navigation.h"
 #include "devices/evdev/linux_inputs.h"
@@ -95,6 +96,16 @@ bool changes_nothing(const DeviceMapping& mapping) {
          mapping.clutch_button < 0;
 }
 
+/// The entry, absent where the profile of a device that is there would keep it from being opened.
+DeviceEntry openable(DeviceEntry entry) {
+  if (!entry.present || entry.family != "pointer") return entry;
+  if (const auto mapping = read_mapping(entry.name); !mapping) {
+    entry.present = false;
+    entry.why = mapping.error().message + "; correct that, or remove the file";
+  }
+  return entry;
+}
+
 }  // namespace
 
 std::span<const BackEnd> back_ends() { return table(); }
@@ -102,7 +113,7 @@ std::span<const BackEnd> back_ends() { return table(); }
 std::vector<DeviceEntry> list_devices() {
   std::vector<DeviceEntry> all;
   for (const BackEnd& back_end : table())
-    for (DeviceEntry& entry : back_end.list()) all.push_back(std::move(entry));
+    for (DeviceEntry& entry : back_end.list()) all.push_back(openable(std::move(entry)));
   return all;
 }
 
@@ -128,6 +139,12 @@ base::Result<std::unique_ptr<NavigationDevice>> open_navigation(std::string_view
 bool is_device_address(std::string_view name) {
   const BackEnd* const back_end = back_end_of(name);
   return back_end != nullptr && back_end->prefix != kSimulated;
+}
+
+std::string identity_of(const PointerDevice& device) {
+  if (const auto* mapped = dynamic_cast<const MappedDevice*>(&device)) return identity_of(mapped->own());
+  const auto* driven = dynamic_cast<const DrivenDevice*>(&device);
+  return driven != nullptr ? driven->identity() : std::string();
 }
 
 base::Result<std::unique_ptr<PointerDevice>> open_device(std::string_view name) {

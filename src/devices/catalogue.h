@@ -30,6 +30,10 @@ base::Result<std::unique_ptr<PointerDevice>> open_device(std::string_view name);
 /// Opens a pointer device likewise, with this mapping in place of its file's.
 base::Result<std::unique_ptr<PointerDevice>> open_device(std::string_view name, const DeviceMapping& mapping);
 
+/// The one name of an open device, however it was addressed: DeviceEntry::identity of its entry. Empty: it is
+/// not known, as that of simulated ones.
+std::string identity_of(const PointerDevice& device);
+
 /// Opens a tracker for the user's head: "vrpn:NAME@HOST:PORT". May take seconds.
 base::Result<std::unique_ptr<HeadDevice>> open_head(std::string_view name);
 /// Opens a device that moves the view: "gamepad" or "gamepad:WHICH". May take seconds.

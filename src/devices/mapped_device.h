@@ -40,6 +40,7 @@ class MappedDevice final : public PointerDevice {
   DeviceStatus write(const Vector3& force) override;
   std::string condition() const override { return device_->condition(); }
 
+  const PointerDevice& own() const { return *device_; }
   const DeviceMapping& mapping() const { return mapping_; }
   /// Goes over to another mapping, with the clutch where it begins. While nobody reads or writes.
   void set_mapping(const DeviceMapping& mapping);

@@ -1,6 +1,7 @@
 #include "devices/mapping_file.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cctype>
 #include <cmath>
@@ -159,7 +160,8 @@ std::string mapping_text(const DeviceMapping& mapping, const std::string& made_b
       "axes = \"{}\"  # which of its axes, as ICOME shows them without this, point right, up and to the "
       "user\n",
       axes_text(mapping.ours_from_device.toRotationMatrix()));
-  if (mapping.scale)
+  // A scale that follows the view is that of the last view, and no choice of anybody's.
+  if (mapping.scale && !mapping.scale_follows_view)
     text += fmt::format("scale = {:.6g}  # m that the tip moves for each m of the hand\n", *mapping.scale);
   if (mapping.scale_follows_view)
     text += "scale_follows_view = true  # in the window: the workspace spans what is seen\n";
@@ -193,11 +195,27 @@ base::Result<DeviceMapping> read_mapping(std::string_view address) {
   return parse_mapping(*text, path->string());
 }
 
-base::Result<void> write_mapping(std::string_view address, const DeviceMapping& mapping,
-                                 const std::string& made_by) {
+base::Result<void> check_mapping_place(std::string_view address) {
   const std::filesystem::path path = mapping_path(address);
   if (path.empty())
-    return base::fail("neither XDG_CONFIG_HOME nor HOME is set, so there is no place for a device's profile");
+    return base::fail(
+        "neither XDG_CONFIG_HOME nor HOME is set, so there is no place for a device's profile; set one of "
+        "them "
+        "to a folder");
+  std::error_code error;
+  std::filesystem::path folder = path.parent_path();
+  while (folder.has_relative_path() && !std::filesystem::exists(folder, error)) folder = folder.parent_path();
+  if (std::filesystem::is_directory(folder, error) && ::access(folder.c_str(), W_OK | X_OK) == 0) return {};
+  return base::fail(fmt::format(
+      "the device's profile cannot be written to {}, as {} may not be written to; permit that, or set "
+      "XDG_CONFIG_HOME to a folder of yours",
+      path.string(), folder.string()));
+}
+
+base::Result<void> write_mapping(std::string_view address, const DeviceMapping& mapping,
+                                 const std::string& made_by) {
+  if (const auto checked = check_mapping_place(address); !checked) return checked;
+  const std::filesystem::path path = mapping_path(address);
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
   auto file = io::NewFile::create(path);

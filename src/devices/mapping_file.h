@@ -15,8 +15,8 @@ namespace icome::devices {
 
 /// Reads a mapping from text; the error names the source, line and column.
 base::Result<DeviceMapping> parse_mapping(std::string_view text, const std::string& source);
-/// The text of a mapping, with a line that tells how it was made. A turn that exchanges no axes exactly is
-/// written as the nearest one that does.
+/// The text of a mapping, with a line that tells how it was made. A scale that follows the view is left out.
+/// A turn that exchanges no axes exactly is written as the nearest one that does.
 std::string mapping_text(const DeviceMapping& mapping, const std::string& made_by);
 
 /// The file that the mapping of a device is written to, by its address: in $XDG_CONFIG_HOME/icome/devices, or
@@ -26,6 +26,8 @@ std::filesystem::path mapping_path(std::string_view address);
 /// first device, the only file that one of its devices has; without any, the DeviceMapping that changes
 /// nothing. Fails where several files could be meant.
 base::Result<DeviceMapping> read_mapping(std::string_view address);
+/// Can the device's file be written, as far as can be told without writing? The error says what to do.
+base::Result<void> check_mapping_place(std::string_view address);
 /// Writes the device's file whole or not at all.
 base::Result<void> write_mapping(std::string_view address, const DeviceMapping& mapping,
                                  const std::string& made_by);

@@ -8,7 +8,6 @@
 #include <thread>
 #include <utility>
 
-#include "devices/loss_text.h"
 #include "session/session_parts.h"
 
 namespace icome::session {
@@ -137,34 +136,29 @@ void SessionParts::take_followers() {
     if (const auto news = follower->news()) tell(SessionEvent::Kind::Notice, *news);
 }
 
-void SessionParts::tell_of_loss(std::size_t pointer) {
-  tell(SessionEvent::Kind::DeviceLost,
-       devices::loss_text(hands.info(pointer).name, hands.condition(pointer)));
-}
-
-/// Tells people a device's condition, such as that its motors are hot, when it changes.
-void SessionParts::tell_condition(std::size_t pointer) {
-  const std::string condition = hands.condition(pointer);
-  if (condition == std::exchange(pointers[pointer].condition, condition) || condition.empty()) return;
-  tell(SessionEvent::Kind::Notice, fmt::format("{}: {}", hands.info(pointer).name, condition));
-}
-
 void SessionParts::notice_devices() {
-  for (std::size_t i = 0; i < hands.pointers(); ++i) {
-    const PointerView& pointer = hands.view(i);
-    if (pointer.time == 0) continue;  // no tick yet
-    const bool is_lost = pointer.status == devices::DeviceStatus::Lost;
-    // A device that was lost and came back in between is reported, too.
-    PointerParts& known = pointers[i];
-    if (pointer.losses > std::exchange(known.losses, pointer.losses) && !known.lost) {
-      known.lost = true;
-      tell_of_loss(i);
-    }
-    if (known.lost && !is_lost) {
-      known.lost = false;
-      tell(SessionEvent::Kind::DeviceBack, fmt::format("The device \"{}\" is back.", hands.info(i).name));
-    }
-    if (!is_lost) tell_condition(i);
+  for (std::size_t i = 0; i < hands.pointers(); ++i)
+    if (hands.view(i).time != 0) notice_device(i);  // it has had a tick
+}
+
+/// Tells people that a device is lost or back, and what it says of itself.
+void SessionParts::notice_device(std::size_t pointer) {
+  using Told = devices::DeviceNews::Kind;
+  const PointerView& view = hands.view(pointer);
+  PointerParts& known = pointers[pointer];
+  const std::string& name = hands.info(pointer).name;
+  if (!known.news) known.news.emplace(name);
+  const bool is_lost = view.status == devices::DeviceStatus::Lost;
+  const std::string condition = hands.condition(pointer);
+  std::vector<devices::DeviceNews::Item> all;
+  // A device that was lost and came back in between is reported, too.
+  if (view.losses > std::exchange(known.losses, view.losses) && !is_lost) all = known.news->look(true, {});
+  for (auto& item : known.news->look(is_lost, condition)) all.push_back(std::move(item));
+  for (auto& item : all) {
+    const auto kind = item.kind == Told::Lost   ? SessionEvent::Kind::DeviceLost
+                      : item.kind == Told::Back ? SessionEvent::Kind::DeviceBack
+                                                : SessionEvent::Kind::Notice;
+    events.push_back({.kind = kind, .text = std::move(item.text), .device = name});
   }
 }
 

@@ -59,6 +59,7 @@ struct SessionEvent {
   Kind kind = Kind::Notice;
   std::string text = {};  // a sentence or two: what happened, and what to do
   std::vector<std::string> details = {};
+  std::string device = {};  // the name of the pointer device that it is about; or empty
 };
 
 /// One running workspace without a window (thesis 5.6.1): the world with its history, the servo loop, what is

@@ -77,6 +77,7 @@ void SessionParts::take_in_device(PointerConnection connection) {
   pointers.insert(pointers.begin() + std::ptrdiff_t(place), {.ungrabbed = true,
                                                              .number = ++pointers_so_far,
                                                              .address = std::move(connection.address),
+                                                             .identity = std::move(connection.identity),
                                                              .seen_until = session_seconds() + kShownFor});
   if (place == 0) renew_capped();
 }
@@ -85,7 +86,8 @@ void SessionParts::take_out(std::size_t pointer) {
   if (pointer == 0) let_go_of_technique();
   let_go(pointer);
   const devices::PointerDevice* const device = hands.remove(pointer);
-  closing.push_back({std::move(pointers[pointer].address), device, nullptr});
+  closing.push_back(
+      {std::move(pointers[pointer].address), std::move(pointers[pointer].identity), device, nullptr});
   pointers.erase(pointers.begin() + std::ptrdiff_t(pointer));
   if (hands.pointers() == 0) take_in_mouse();
   if (pointer == 0) renew_capped();
@@ -154,9 +156,10 @@ base::Result<void> SessionHands::disconnect(std::size_t index) {
   return {};
 }
 
-bool SessionHands::is_closing(const std::string& address) const {
-  return std::any_of(parts_.closing.begin(), parts_.closing.end(),
-                     [&](const ClosingDevice& it) { return it.address == address; });
+bool SessionHands::is_closing(const std::string& address, const std::string& identity) const {
+  return std::any_of(parts_.closing.begin(), parts_.closing.end(), [&](const ClosingDevice& it) {
+    return it.address == address || (!identity.empty() && it.identity == identity);
+  });
 }
 
 PointerUse SessionHands::use(std::size_t index) const {
@@ -164,6 +167,7 @@ PointerUse SessionHands::use(std::size_t index) const {
   PointerUse use;
   use.number = it.number;
   use.address = it.address;
+  use.identity = it.identity;
   use.own_radius = pointer_info(index).workspace_radius;
   use.condition = parts_.hands.condition(index);
   use.is_mouse = parts_.is_mouse(index);

@@ -32,8 +32,9 @@ struct ServoHealth {
 
 /// A pointer's device as a person knows it.
 struct PointerUse {
-  std::uint64_t number = 0;  // of the pointer, which keeps it wherever its index goes
-  std::string address = {};  // by which it was opened; empty: it was not connected by one
+  std::uint64_t number = 0;   // of the pointer, which keeps it wherever its index goes
+  std::string address = {};   // by which it was opened; empty: it was not connected by one
+  std::string identity = {};  // devices::identity_of() of it; empty: not known
   /// The mapping that it is used through; its scale is the one of now. None: it has none to change.
   std::optional<devices::DeviceMapping> mapping = {};
   double own_radius = 0.0;     // m, of its workspace in the device's frame
@@ -84,8 +85,9 @@ class SessionHands {
   /// ticks later, and is closed by a thread of its own. The last pointer makes place for the mouse's hand.
   /// Fails for that hand.
   base::Result<void> disconnect(std::size_t index);
-  /// Is a device of this address still being closed? Until then it cannot be opened again.
-  bool is_closing(const std::string& address) const;
+  /// Is the device of this address, or of this identity where it is known, still being closed? Until then it
+  /// cannot be opened again.
+  bool is_closing(const std::string& address, const std::string& identity = {}) const;
   /// How a pointer's device is used.
   PointerUse use(std::size_t index) const;
   /// Changes the mapping of a connected device: it is let go of, and comes back softly some ticks later.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "devices/device_news.h"
 #include "devices/simulated/simulated_device.h"
 #include "session/background_task.h"
 #include "session/display/effect_symbols.h"
@@ -40,12 +41,12 @@ struct PointerParts {
   HandGrab grab = {};
   PartGrab part_grab = {};
   PointGrab point_grab = {};
-  bool ungrabbed = false;      // it begins to grab when its button has come up
-  bool lost = false;           // its device, as a person was told last
-  std::uint64_t losses = 0;    // that a person was told of
-  std::string condition = {};  // of its device, as a person was told last
-  std::uint64_t number = 0;    // PointerUse::number
-  std::string address = {};    // of its device; empty: the session was given it without one
+  bool ungrabbed = false;                        // it begins to grab when its button has come up
+  std::uint64_t losses = 0;                      // that a person was told of
+  std::optional<devices::DeviceNews> news = {};  // of its device, from the first tick on
+  std::uint64_t number = 0;                      // PointerUse::number
+  std::string address = {};                      // of its device; empty: the session was given it without one
+  std::string identity = {};                     // of its device; empty: not known
   bool shows_workspace = false;
   double seen_until = 0.0;  // s, of session_seconds: until then its workspace is shown in any case
 };
@@ -53,6 +54,7 @@ struct PointerParts {
 /// A device on its way out: nobody waits until it is closed.
 struct ClosingDevice {
   std::string address = {};
+  std::string identity = {};
   const devices::PointerDevice* device = nullptr;        // to be compared only
   std::unique_ptr<BackgroundTask<bool>> task = nullptr;  // null: the servo may still use it
 };
@@ -124,8 +126,7 @@ struct SessionParts {
   // session.cpp
   void take_in();
   void notice_devices();
-  void tell_of_loss(std::size_t pointer);
-  void tell_condition(std::size_t pointer);
+  void notice_device(std::size_t pointer);
   void tell(SessionEvent::Kind kind, std::string text, std::vector<std::string> details = {});
   void take_followers();
   void tell_what_is_not_as_it_is();

@@ -10,7 +10,7 @@ import threading
 import time
 import unittest
 
-from icome_program import PROGRAM, ProgramTest
+from icome_program import PROGRAM, ProgramTest, run
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "devices" / "fakes"))
 from vrpn_peer import Client, Server  # an independent speaker of VRPN, written from the facts
@@ -102,10 +102,15 @@ class ServedTest(ProgramTest):
             self.assertEqual(serving.said["names"], ["Pointer0", "Pointer1"])
 
     def test_one_icome_measures_the_device_of_another(self):
+        """The hand goes round, which a test at rest must notice."""
         with Serving() as serving:
-            answer = json.loads(self.succeeds("devices", "test", f"vrpn:Pointer0@{serving.host}:{serving.port}", "--seconds",
-                                              "1", "--json").stdout)
+            result = run("devices", "test", f"vrpn:Pointer0@{serving.host}:{serving.port}", "--seconds", "2", "--json")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("hold it still", result.stderr)
+        answer = json.loads(result.stdout)
         self.assertGreater(answer["readings"], 20)
+        self.assertGreater(answer["moved_at_rest_mm"], 15.0)
+        self.assertIsNone(answer["noise_um"])
 
     def test_a_server_of_others_is_touched_with(self):
         with Server("Tracker0") as server:
@@ -151,8 +156,10 @@ class ServedTest(ProgramTest):
             stop = threading.Event()
 
             def stand():
+                odd = False
                 while not stop.wait(0.001):
-                    server.pose((10.0, 20.0, 30.0), (0.0, 0.0, 0.0, 1.0))
+                    odd = not odd  # no hand is quite still
+                    server.pose((10.0 + 1e-6 * odd, 20.0, 30.0), (0.0, 0.0, 0.0, 1.0))
 
             arm = threading.Thread(target=stand)
             arm.start()
@@ -195,8 +202,9 @@ class ServedTest(ProgramTest):
         self.assertLess(max(abs(field[5]) for field in fields), 0.501)
 
     def test_an_impossible_place_is_told(self):
-        for place, saying in (("nowhere", "HOST:PORT"), ("127.0.0.1:99999", "HOST:PORT"), ("::1:3883", "HOST:PORT"),
-                              ("[::1]:3883", "IPv6"), ("192.0.2.1:0", "no such address")):
+        for place in ("nowhere", "127.0.0.1", "127.0.0.1:99999", "127.0.0.1:abc", ":3883", "::1:3883"):
+            self.fails("devices", "serve", "--vrpn", place, code=2, saying="HOST:PORT")
+        for place, saying in (("[::1]:3883", "IPv6"), ("192.0.2.1:0", "no such address")):
             self.fails("devices", "serve", "--vrpn", place, code=1, saying=saying)
         self.fails("devices", "serve", "--vrpn", "127.0.0.1:0", "--device", "nothing", code=1, saying="nothing")
         with Serving() as serving:

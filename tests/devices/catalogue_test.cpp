@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <set>
+
+#include "devices/fakes/loaded_fake.h"
 
 namespace icome::devices {
 namespace {
@@ -18,6 +23,24 @@ TEST(Catalogue, EachBackEndTellsOfADeviceOrWhyThereIsNone) {
   }
   for (const BackEnd& back_end : back_ends())
     EXPECT_TRUE(told.contains(std::string(back_end.name))) << back_end.name;
+}
+
+TEST(Catalogue, WhatCannotBeOpenedIsNotThere) {
+  std::string folder = (std::filesystem::temp_directory_path() / "icome-catalogue-XXXXXX").string();
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const fakes::EnvironmentValue config("XDG_CONFIG_HOME", folder);
+  const fakes::EnvironmentValue mode("ICOME_HD_MODE", "x");
+  const fakes::EnvironmentValue axes("ICOME_DHD_AXES", "x,x,x");
+  const fakes::EnvironmentValue pad("ICOME_GAMEPAD", "speed=x");
+  std::filesystem::create_directories(folder + "/icome/devices");
+  std::ofstream(folder + "/icome/devices/simulated.toml") << "scale = \"x\"\n";
+  std::set<std::string> reasons;
+  for (const DeviceEntry& entry : list_devices()) {
+    for (const char* word : {"ICOME_HD_MODE", "ICOME_DHD_AXES", "ICOME_GAMEPAD", "simulated.toml"})
+      if (!entry.present && entry.why.find(word) != std::string::npos) reasons.insert(word);
+  }
+  EXPECT_EQ(reasons.size(), 4u);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Catalogue, PrefixesDiffer) {

@@ -17,7 +17,6 @@ TEST(MappingFile, WhatIsWrittenIsRead) {
   mapping.workspace_radius = 0.07;
   mapping.max_force = 2.0;
   mapping.clutch_button = 2;
-  mapping.scale_follows_view = true;
   const auto read = parse_mapping(mapping_text(mapping, "test"), "device.toml");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_TRUE(read->centre.isApprox(mapping.centre));
@@ -26,7 +25,17 @@ TEST(MappingFile, WhatIsWrittenIsRead) {
   EXPECT_EQ(read->workspace_radius, 0.07);
   EXPECT_EQ(read->max_force, 2.0);
   EXPECT_EQ(read->clutch_button, 2);
+  EXPECT_FALSE(read->scale_follows_view);
+}
+
+TEST(MappingFile, AScaleThatFollowsTheViewIsNotKept) {
+  DeviceMapping mapping;
+  mapping.scale = 6.19957;
+  mapping.scale_follows_view = true;
+  const auto read = parse_mapping(mapping_text(mapping, "test"), "device.toml");
+  ASSERT_TRUE(read) << read.error().message;
   EXPECT_TRUE(read->scale_follows_view);
+  EXPECT_FALSE(read->scale) << "it is that of the last view";
 }
 
 TEST(MappingFile, WhatIsLeftOutChangesNothing) {

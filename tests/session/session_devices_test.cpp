@@ -16,7 +16,14 @@ using devices::DeviceStatus;
 struct Seen {
   std::mutex mutex;
   std::vector<Vector3> forces;  // N, one for each write
+  std::string condition;
   std::atomic<bool> closed = false;
+  std::atomic<bool> lost = false;
+
+  void say(const std::string& sentences) {
+    const std::lock_guard lock(mutex);
+    condition = sentences;
+  }
 
   std::vector<Vector3> so_far() {
     const std::lock_guard lock(mutex);
@@ -39,12 +46,16 @@ class NotedDevice final : public devices::PointerDevice {
     state = {};
     state.position = place_;
     state.buttons = buttons;
-    return DeviceStatus::Ok;
+    return seen_->lost ? DeviceStatus::Lost : DeviceStatus::Ok;
   }
   DeviceStatus write(const Vector3& force) override {
     const std::lock_guard lock(seen_->mutex);
     seen_->forces.push_back(force);
     return DeviceStatus::Ok;
+  }
+  std::string condition() const override {
+    const std::lock_guard lock(seen_->mutex);
+    return seen_->condition;
   }
   std::atomic<std::uint32_t> buttons = 0;
 
@@ -306,6 +317,56 @@ TEST(WorkspaceMarks, EndsThatAreTooNearToTheEyeAreLeftOut) {
   EXPECT_NEAR(ends[0].z(), -0.5, 1e-12);
   EXPECT_NEAR(ends[1].z(), 0.5, 1e-12);
   EXPECT_NEAR(ends[2].z(), -5.0, 1e-12);
+}
+
+/// The texts of the events about devices until nothing has come for some turns, with bars between them.
+std::string device_news(Session& session) {
+  std::string all;
+  for (int quiet = 0; quiet < 100; ++quiet) {
+    for (const SessionEvent& event : session.update()) {
+      if (event.device.empty()) continue;
+      EXPECT_EQ(event.device, "noted");
+      all += (all.empty() ? "" : "|") + event.text;
+      quiet = 0;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return all;
+}
+
+TEST(SessionDevices, EachSentenceOfADeviceIsToldOnceWhileItLasts) {
+  const auto session = start(quiet_settings());
+  const auto seen = std::make_shared<Seen>();
+  ASSERT_TRUE(session->hands().connect(connection(std::make_unique<NotedDevice>(seen, Vector3::Zero()))));
+  EXPECT_EQ(device_news(*session), "");
+  seen->say("No force: it has no power");
+  EXPECT_EQ(device_news(*session), "noted: No force: it has no power.");
+  seen->say("No force: it has no power\nIt is hot");
+  EXPECT_EQ(device_news(*session), "noted: It is hot.");
+  seen->say("It gives forces again\nIt is hot");
+  EXPECT_EQ(device_news(*session), "noted: It gives forces again.");
+  // The reason of a loss is told with the loss alone.
+  seen->say("it was unplugged");
+  seen->lost = true;
+  EXPECT_EQ(device_news(*session),
+            "The device \"noted\" is lost: it was unplugged. It is used again as soon as it answers.");
+  seen->say("");
+  seen->lost = false;
+  EXPECT_EQ(device_news(*session), "The device \"noted\" is back.");
+}
+
+TEST(SessionDevices, ADeviceOnItsWayOutIsKnownByItsIdentity) {
+  const auto session = start(quiet_settings());
+  auto slow = std::make_unique<NotedDevice>(std::make_shared<Seen>(), Vector3::Zero(),
+                                            std::chrono::milliseconds(500));
+  PointerConnection one = connection(std::move(slow), {}, "test");
+  one.identity = "test#1";
+  ASSERT_TRUE(session->hands().connect(std::move(one)));
+  EXPECT_EQ(session->hands().use(0).identity, "test#1");
+  ASSERT_TRUE(session->hands().disconnect(0));
+  EXPECT_TRUE(session->hands().is_closing("test"));
+  EXPECT_TRUE(session->hands().is_closing("test:1", "test#1"));
+  EXPECT_FALSE(session->hands().is_closing("test:1"));
 }
 
 }  // namespace

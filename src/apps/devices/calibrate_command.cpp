@@ -37,12 +37,11 @@ base::Result<devices::DeviceMapping> mapping_of(const DevicesOptions& options) {
 
 base::Result<void> check_range(const session::DeviceRange& range, const std::string& name) {
   const base::Vector3 extent = range.high - range.low;
-  if (extent.maxCoeff() >= kLeastExtent && extent.minCoeff() > 0.0) return {};
-  return base::fail(
-      fmt::format("{}: it moved by {:.1f} x {:.1f} x {:.1f} mm only, so there is no workspace to tell; lead "
-                  "it to all corners "
-                  "while this runs (no profile was written)",
-                  name, 1e3 * extent.x(), 1e3 * extent.y(), 1e3 * extent.z()));
+  if (extent.minCoeff() >= kLeastExtent) return {};
+  return base::fail(fmt::format(
+      "{}: it moved by {:.1f} x {:.1f} x {:.1f} mm (right, up, to the user), and {:.0f} mm each are the "
+      "least that tells a workspace; lead it to all corners while this runs (no profile was written)",
+      name, 1e3 * extent.x(), 1e3 * extent.y(), 1e3 * extent.z(), 1e3 * kLeastExtent));
 }
 
 std::string answer(const DevicesOptions& options, const devices::DeviceMapping& mapping,
@@ -68,6 +67,9 @@ std::string answer(const DevicesOptions& options, const devices::DeviceMapping& 
 base::Result<std::string> calibrate(const DevicesOptions& options, StatusLine& status) {
   auto mapping = mapping_of(options);
   if (!mapping) return tl::unexpected(mapping.error());
+  // An impossible place is reported before the work.
+  if (const auto checked = devices::check_mapping_place(options.name); !checked)
+    return tl::unexpected(checked.error());
   // The device in its own frame, as its mapping is to be found.
   auto device = devices::open_device(options.name, {});
   if (!device) return tl::unexpected(device.error());

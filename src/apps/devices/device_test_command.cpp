@@ -13,7 +13,7 @@
 #include "apps/terminal.h"
 #include "base/shown_text.h"
 #include "devices/catalogue.h"
-#include "devices/loss_text.h"
+#include "devices/device_news.h"
 #include "io/new_file.h"
 #include "session/probe/device_test.h"
 
@@ -40,12 +40,22 @@ bool may_push(const DevicesOptions& options, const devices::DeviceInfo& info) {
 
 Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
+/// A result, with what keeps it from being one of a device at rest that pushes.
+struct Measured {
+  DeviceTestResult result;
+  std::string condition;  // of the device: while it might not push, else at the end
+  bool might_push = true;
+
+  bool is_whole() const { return result.was_still && might_push && result.lost == 0; }
+};
+
 std::string result_json(const DevicesOptions& options, const devices::PointerDevice& device,
-                        const DeviceTestResult& result) {
+                        const Measured& measured) {
+  const DeviceTestResult& result = measured.result;
   Json json;
   json["device"] = device.info().name;
   json["address"] = options.name;
-  json["condition"] = device.condition();
+  json["condition"] = devices::in_one_line(measured.condition);
   json["seconds"] = result.ticks.empty() ? 0.0 : result.ticks.back().t;
   json["readings"] = result.readings;
   json["rate_hz"] = result.rate_hz;
@@ -54,9 +64,12 @@ std::string result_json(const DevicesOptions& options, const devices::PointerDev
                          {"max", result.interval_ms.longest}};
   json["stalled_ticks"] = result.stalled;
   json["lost_ticks"] = result.lost;
-  json["noise_um"] = {1e6 * result.noise.x(), 1e6 * result.noise.y(), 1e6 * result.noise.z()};
+  json["moved_at_rest_mm"] = 1e3 * result.moved;
+  json["noise_um"] = nullptr;
+  if (result.was_still)
+    json["noise_um"] = {1e6 * result.noise.x(), 1e6 * result.noise.y(), 1e6 * result.noise.z()};
   json["force"] = nullptr;
-  if (result.force) {
+  if (result.force && measured.might_push) {
     std::optional<double> delay = result.force->delay;
     if (delay) *delay *= 1e3;
     json["force"] = {{"strongest_n", result.force->strongest},
@@ -67,7 +80,8 @@ std::string result_json(const DevicesOptions& options, const devices::PointerDev
 }
 
 std::string result_text(const DevicesOptions& options, const devices::PointerDevice& device,
-                        const DeviceTestResult& result) {
+                        const Measured& measured) {
+  const DeviceTestResult& result = measured.result;
   std::string text = fmt::format("{} ({})\n", base::shown_text(device.info().name), options.name);
   const auto row = [&text](const char* name, const std::string& value) {
     text += fmt::format("  {:<14}{}\n", name, value);
@@ -78,16 +92,19 @@ std::string result_text(const DevicesOptions& options, const devices::PointerDev
                               result.interval_ms.median, result.interval_ms.p99, result.interval_ms.longest));
   row("missed",
       fmt::format("{} ticks without a new reading, {} without the device", result.stalled, result.lost));
-  row("noise", fmt::format("{:.1f}, {:.1f}, {:.1f} um (x, y, z) at rest", 1e6 * result.noise.x(),
-                           1e6 * result.noise.y(), 1e6 * result.noise.z()));
-  if (result.force) {
+  row("noise", result.was_still
+                   ? fmt::format("{:.1f}, {:.1f}, {:.1f} um (x, y, z) at rest", 1e6 * result.noise.x(),
+                                 1e6 * result.noise.y(), 1e6 * result.noise.z())
+                   : fmt::format("cannot be told: it moved by {:.0f} mm", 1e3 * result.moved));
+  if (result.force && measured.might_push) {
     row("force", fmt::format("up to {:.2f} N, which moved it by {:.2f} mm", result.force->strongest,
                              1e3 * result.force->moved));
     row("delay", result.force->delay
                      ? fmt::format("{:.1f} ms from a force to its motion", 1e3 * *result.force->delay)
-                     : "too little moved to tell");
+                 : result.was_still ? "too little moved to tell"
+                                    : "cannot be told: it moved");
   }
-  if (!device.condition().empty()) row("condition", device.condition());
+  if (!measured.condition.empty()) row("condition", devices::in_one_line(measured.condition));
   if (!options.picture.empty()) row("picture", options.picture.string());
   return text;
 }
@@ -100,10 +117,26 @@ base::Result<void> write_picture_of(const DeviceTestResult& result, const std::s
   return out.finish();
 }
 
-/// The answer of a test, and whether the device was there to its end.
+/// Says why a result is not whole, and what to do.
+void tell_what_is_missing(const Measured& measured, const devices::PointerDevice& device) {
+  const std::string& name = device.info().name;
+  const DeviceTestResult& result = measured.result;
+  if (result.lost_at_end)
+    tell(devices::loss_text(name, device.condition()) + " The result covers what was measured before.");
+  else if (result.lost > 0)
+    tell(fmt::format("{}: it was lost and came back meanwhile ({} ticks); look at its cable, and test again.",
+                     name, result.lost));
+  if (!measured.might_push)
+    tell(fmt::format("{}: it might not push all the time, so forces were not measured. {}", name,
+                     devices::in_one_line(measured.condition)));
+  if (!result.was_still)
+    tell(fmt::format("{}: it moved by {:.0f} mm; hold it still, and test again.", name, 1e3 * result.moved));
+}
+
+/// The answer of a test, and whether it tells all that was to be measured.
 struct Tested {
   std::string text;
-  bool lost = false;
+  bool whole = true;
 };
 
 base::Result<Tested> test(const DevicesOptions& options, StatusLine& status) {
@@ -124,7 +157,11 @@ base::Result<Tested> test(const DevicesOptions& options, StatusLine& status) {
   settings.seconds = options.seconds.value_or(kRestSeconds);
   settings.force = may_push(options, (*device)->info()) ? options.force : 0.0;
   if (interrupted()) return base::fail("interrupted: nothing was measured.");
-  const auto result = session::test_device(**device, settings, [&](double seconds, double all) {
+  Measured measured;
+  auto result = session::test_device(**device, settings, [&](double seconds, double all) {
+    const std::string condition = (*device)->condition();
+    if (measured.might_push) measured.condition = condition;
+    measured.might_push = measured.might_push && !devices::gives_no_force(condition);
     status.progress(seconds < settings.seconds ? "Hold it still" : "Hold it loosely",
                     std::round(10.0 * seconds) / 10.0, all, "s");
     return !interrupted();
@@ -136,12 +173,11 @@ base::Result<Tested> test(const DevicesOptions& options, StatusLine& status) {
     if (const auto drawn = write_picture_of(*result, (*device)->info().name, *out); !drawn)
       return tl::unexpected(drawn.error());
   }
-  if (result->lost_at_end)
-    tell(devices::loss_text((*device)->info().name, (*device)->condition()) +
-         " The result covers what was measured before.");
+  measured.result = std::move(*result);
+  tell_what_is_missing(measured, **device);
   return Tested{
-      options.json ? result_json(options, **device, *result) : result_text(options, **device, *result),
-      result->lost_at_end};
+      options.json ? result_json(options, **device, measured) : result_text(options, **device, measured),
+      measured.is_whole()};
 }
 
 }  // namespace
@@ -154,7 +190,7 @@ int run_device_test(const DevicesOptions& options) {
   const int printed = print_answer(tested->text);
   if (printed != 0) return printed;
   if (interrupted()) return kDesignInterrupted;
-  return tested->lost ? kDesignFailed : 0;
+  return tested->whole ? 0 : kDesignFailed;
 }
 
 }  // namespace icome::apps

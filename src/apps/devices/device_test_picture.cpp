@@ -63,8 +63,11 @@ charts::Image draw_device_test(const DeviceTestResult& result, const std::string
   charts::Canvas canvas(kTestPageWidth, kTestPageHeight, 1.0);
   canvas.text({kTestMargin, kTestMargin + 8.0}, title, {28.0, kTestInk, true});
   canvas.text({kTestMargin, kTestMargin + 36.0},
-              fmt::format("{:.0f} readings a second; noise at rest {:.1f}, {:.1f}, {:.1f} um", result.rate_hz,
-                          1e6 * result.noise.x(), 1e6 * result.noise.y(), 1e6 * result.noise.z()),
+              fmt::format("{:.0f} readings a second; {}", result.rate_hz,
+                          result.was_still
+                              ? fmt::format("noise at rest {:.1f}, {:.1f}, {:.1f} um", 1e6 * result.noise.x(),
+                                            1e6 * result.noise.y(), 1e6 * result.noise.z())
+                              : fmt::format("it moved by {:.0f} mm at rest", 1e3 * result.moved)),
               {16.0, kTestInk});
   const double end = result.ticks.empty() ? 0.0 : result.ticks.back().t;
   const auto first =

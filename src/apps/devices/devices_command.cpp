@@ -80,7 +80,8 @@ void add_serve_options(CLI::App& devices, DevicesOptions& options) {
   serve.footer(kDevicesServeNotes);
   serve
       .add_option("--vrpn", options.vrpn, "Where to listen; port 0 takes a free one (default 127.0.0.1:3883)")
-      ->type_name("HOST:PORT");
+      ->type_name("HOST:PORT")
+      ->check(names_place);
   serve
       .add_option("--device", options.shared,
                   "A device's address; may be given several times (default: simulated)")

@@ -56,9 +56,15 @@ constexpr const char* kDevicesTestNotes =
     "rate_hz,\n"
     "  interval_ms {median, p99, max} between fresh readings, as far as ticks of --rate can tell, "
     "stalled_ticks,\n"
-    "  lost_ticks, noise_um [x, y, z] (standard deviation at rest without slow drift), force (null, or\n"
-    "  {strongest_n, moved_mm, delay_ms (from a force to the motion it makes; null where too little "
-    "moved)}).";
+    "  lost_ticks, moved_at_rest_mm, noise_um [x, y, z] (standard deviation at rest without slow drift; null "
+    "where\n"
+    "  it was not held still), force (null, or {strongest_n, moved_mm, delay_ms (from a force to the motion "
+    "it "
+    "makes;\n"
+    "  null where too little moved, or it was not held still)}). A test in which it was lost, might not push "
+    "or "
+    "was\n"
+    "  not held still says so, and its exit code is 1.";
 
 constexpr const char* kDevicesCalibrateNotes =
     "Lead the device to all corners of its workspace meanwhile; it gives no force. The profile is a small "

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -12,8 +11,9 @@
 #include "apps/interrupt.h"
 #include "apps/terminal.h"
 #include "devices/catalogue.h"
-#include "io/host_port.h"
+#include "devices/device_news.h"
 #include "devices/simulated/simulated_device.h"
+#include "io/host_port.h"
 #include "session/probe/device_sharing.h"
 
 namespace icome::apps {
@@ -50,13 +50,21 @@ base::Result<Devices> open_all(const DevicesOptions& options) {
 }
 
 /// "HOST:PORT" or "PORT" understood.
-base::Result<devices::VrpnServerSettings> place_of(const std::string& text, std::size_t devices) {
-  devices::VrpnServerSettings settings;
+base::Result<io::HostPort> place_of(const std::string& text) {
+  const devices::VrpnServerSettings usual;
   const bool port_alone = text.find(':') == std::string::npos;
-  const auto place = io::parse_host_port(port_alone ? ":" + text : text, {settings.host, settings.port});
-  if (!place)
+  const auto place = io::parse_host_port(port_alone ? ":" + text : text, {usual.host, usual.port});
+  // Without a host it is not plain whether everybody or nobody elsewhere may come.
+  if (!place || text.starts_with(':'))
     return base::fail(
-        fmt::format("--vrpn {}: say HOST:PORT, such as 127.0.0.1:3883; port 0 takes a free one.", text));
+        fmt::format("{}: say HOST:PORT, such as 127.0.0.1:3883; port 0 takes a free one.", text));
+  return *place;
+}
+
+base::Result<devices::VrpnServerSettings> server_settings(const std::string& text, std::size_t devices) {
+  const auto place = place_of(text);
+  if (!place) return tl::unexpected(place.error());
+  devices::VrpnServerSettings settings;
   settings.host = place->host;
   settings.port = place->port;
   settings.names.clear();
@@ -82,7 +90,7 @@ std::string announcement(const DevicesOptions& options, const session::DeviceSha
 }
 
 base::Result<std::unique_ptr<session::DeviceSharing>> start(const DevicesOptions& options) {
-  const auto settings = place_of(options.vrpn, options.shared.size());
+  const auto settings = server_settings(options.vrpn, options.shared.size());
   if (!settings) return tl::unexpected(settings.error());
   auto devices = open_all(options);
   if (!devices) return tl::unexpected(devices.error());
@@ -91,21 +99,26 @@ base::Result<std::unique_ptr<session::DeviceSharing>> start(const DevicesOptions
 
 }  // namespace
 
+std::string names_place(const std::string& text) {
+  const auto place = place_of(text);
+  return place ? std::string() : place.error().message;
+}
+
 int run_serve(const DevicesOptions& options) {
   catch_interrupts();
   StatusLine status;
   const auto sharing = start(options);
   if (!sharing) return end_without_result(sharing.error(), status);
-  print(announcement(options, **sharing));
-  std::fflush(stdout);
-  std::vector<std::string> told((*sharing)->devices());
+  // Who starts it would wait for ever for what it says.
+  if (const int printed = print_answer(announcement(options, **sharing)); printed != 0) return printed;
+  std::vector<devices::DeviceNews> news;
+  for (std::size_t i = 0; i < (*sharing)->devices(); ++i)
+    news.emplace_back((*sharing)->device(i).info().name);
   while (!interrupted()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    for (std::size_t i = 0; i < told.size(); ++i) {
-      const std::string condition = (*sharing)->device(i).condition();
-      if (condition == std::exchange(told[i], condition) || condition.empty()) continue;
-      tell((*sharing)->device(i).info().name + ": " + condition);
-    }
+    for (std::size_t i = 0; i < news.size(); ++i)
+      for (const auto& item : news[i].look((*sharing)->is_lost(i), (*sharing)->device(i).condition()))
+        tell(item.text);
   }
   return 0;
 }

@@ -16,7 +16,7 @@
 #include "apps/stopwatch.h"
 #include "apps/terminal.h"
 #include "apps/touch/effect_options.h"
-#include "devices/loss_text.h"
+#include "devices/device_news.h"
 #include "devices/simulated/simulated_device.h"
 #include "haptics/servo/servo.h"
 #include "realtime/loop.h"
@@ -106,35 +106,6 @@ class ClockedRun {
   double time_ = 0.0;  // s, of the last row logged
 };
 
-/// Tells people when a device is lost and back, and what it says of itself meanwhile.
-class DeviceNews {
- public:
-  explicit DeviceNews(const devices::PointerDevice& device) : device_(device) {}
-
-  void look(bool is_lost, StatusLine& status) {
-    if (const auto news = newest(is_lost)) {
-      status.clear();
-      tell(*news);
-    }
-  }
-
- private:
-  std::optional<std::string> newest(bool is_lost) {
-    const std::string condition = device_.condition();
-    const bool is_other = condition != std::exchange(condition_, condition);
-    const bool was_lost = std::exchange(is_lost_, is_lost);
-    const std::string& name = device_.info().name;
-    if (is_lost && !was_lost) return devices::loss_text(name, condition);
-    if (was_lost && !is_lost) return fmt::format("The device \"{}\" is back.", name);
-    if (!is_lost && is_other && !condition.empty()) return fmt::format("{}: {}", name, condition);
-    return std::nullopt;
-  }
-
-  const devices::PointerDevice& device_;
-  std::string condition_;
-  bool is_lost_ = false;
-};
-
 RunOutcome outcome_of(const realtime::LoopRunner& loop) {
   const realtime::LoopSummary summary = loop.recorder().summary();
   RunOutcome outcome;
@@ -222,13 +193,16 @@ base::Result<RunOutcome> touch_on_clock(devices::PointerDevice& device, const ba
       loop_settings, [&run](const realtime::TickInfo& info) { return run.tick(info); });
   if (!loop) return tl::unexpected(loop.error());
   const Stopwatch started;
-  DeviceNews news(device);
+  devices::DeviceNews news(device.info().name);
   while ((*loop)->running() && !interrupted()) {
     std::this_thread::sleep_for(kDiaryPeriod);
     const double now = started.seconds();
     if (moving.moves()) moving.publish(servo, now, now + MovingScene::kPeriod);
     run.drain(log, status, seconds, MovingScene::kPeriod);
-    news.look(run.device_lost(), status);
+    for (const auto& item : news.look(run.device_lost(), device.condition())) {
+      status.clear();
+      tell(item.text);
+    }
   }
   (*loop)->stop();
   device.write(base::Vector3::Zero());

@@ -72,12 +72,6 @@ base::Result<void> read_place(std::string_view text, DesignAddress& address) {
   return {};
 }
 
-bool is_fingerprint(std::string_view text) {
-  constexpr std::string_view kKind = "sha256:";
-  return text.starts_with(kKind) && text.size() == kKind.size() + 64 &&
-         text.substr(kKind.size()).find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
-
 base::Result<void> read_secrets(std::string_view text, DesignAddress& address) {
   while (!text.empty()) {
     std::string_view part = cut_at(text, '&');
@@ -97,6 +91,12 @@ base::Result<void> read_secrets(std::string_view text, DesignAddress& address) {
 }
 
 }  // namespace
+
+bool is_fingerprint(std::string_view text) {
+  constexpr std::string_view kKind = "sha256:";
+  return text.starts_with(kKind) && text.size() == kKind.size() + 64 &&
+         text.substr(kKind.size()).find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
 
 bool is_design_address(std::string_view text) { return text.starts_with(kScheme); }
 

@@ -24,6 +24,9 @@ struct DesignAddress {
                                  // authorities vouch for it
 };
 
+/// Is it "sha256:" and 64 hexadecimal digits, which name a certificate?
+bool is_fingerprint(std::string_view text);
+
 /// Does the text begin as an address does, "icome://", so that it is not taken for a file?
 bool is_design_address(std::string_view text);
 

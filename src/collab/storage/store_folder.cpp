@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "base/parse_number.h"
+#include "collab/protocol/address.h"
 #include "collab/storage/private_file.h"
 #include "io/file_bytes.h"
 #include "io/new_file.h"
@@ -24,13 +25,6 @@ constexpr std::uint64_t kLongestAddress = 1024;  // bytes of the note
 bool is_host(std::string_view text) {
   return !text.empty() && text.size() <= kLongestHost &&
          std::all_of(text.begin(), text.end(), [](char it) { return it > ' ' && it < '\x7f'; });
-}
-
-bool is_fingerprint(std::string_view text) {
-  constexpr std::string_view kKind = "sha256:";
-  constexpr std::size_t kDigits = 64;
-  return text.starts_with(kKind) && text.size() == kKind.size() + kDigits &&
-         text.find_first_not_of("0123456789abcdef", kKind.size()) == text.npos;
 }
 
 bool is_address(const ServedAddress& address) {

@@ -26,7 +26,11 @@ base::Result<std::unique_ptr<DrivenDevice>> DrivenDevice::create(std::unique_ptr
 }
 
 DrivenDevice::DrivenDevice(std::unique_ptr<Driver> driver, DeviceInfo info, const DrivenSettings& settings)
-    : driver_(std::move(driver)), info_(std::move(info)), settings_(settings), link_(info_) {
+    : driver_(std::move(driver)),
+      info_(std::move(info)),
+      identity_(driver_->identity()),
+      settings_(settings),
+      link_(info_) {
   settings_.retry = std::clamp(settings_.retry, 0.01, 60.0);
   // Before the thread runs, so that a first reading is awaited, not missed.
   link_.connect(info_);

@@ -30,6 +30,8 @@ class DrivenDevice final : public PointerDevice {
   DeviceStatus write(const Vector3& force) override;
   std::string condition() const override { return link_.condition(); }
 
+  /// Driver::identity() of the device, which it keeps while it is lost.
+  const std::string& identity() const { return identity_; }
   /// Any thread.
   LinkCounts counts() const { return link_.counts(); }
 
@@ -40,6 +42,7 @@ class DrivenDevice final : public PointerDevice {
 
   std::unique_ptr<Driver> driver_;
   DeviceInfo info_;
+  std::string identity_;
   DrivenSettings settings_;
   DriverLink link_;
   std::atomic<bool> stop_ = false;

@@ -21,6 +21,9 @@ class Driver {
   virtual std::string run(DriverLink& link, const std::atomic<bool>& stop) = 0;
   /// Lets the device go; after run(), or after open() alone.
   virtual void close() = 0;
+  /// The one name of the open device, however it was addressed: devices of a program with the same one are
+  /// the same. Empty: it is not known. After open().
+  virtual std::string identity() const { return {}; }
 };
 
 }  // namespace icome::devices

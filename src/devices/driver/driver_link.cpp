@@ -1,7 +1,12 @@
 #include "devices/driver/driver_link.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "base/clock.h"
+#include "devices/device_news.h"
 
 namespace icome::devices {
 namespace {
@@ -11,6 +16,14 @@ constexpr double kSlack = 0.005;         // m, error of a reading beside that
 constexpr int kLastingReadings = 4;      // odd readings in a row that agree, and so are no spike
 constexpr double kFarthest = 10.0;       // workspace radii from the origin
 constexpr double kFarthestBeside = 1.0;  // m, beyond those
+constexpr double kPushes = 0.2;          // N, above which a hand that is pushed moves a little
+
+constexpr std::int64_t kTellSilence = 1'000'000'000;    // ns without a reading after which people are told
+constexpr std::int64_t kCountRefusals = 1'000'000'000;  // ns
+constexpr int kFewRefusals = 2 * kLastingReadings;      // in that time, as a jump that lasts makes some
+constexpr int kRefusedShare = 20;                       // one in so many is worth telling
+constexpr std::int64_t kTellRefusals = 5'000'000'000;   // ns
+constexpr std::int64_t kTellReturn = 3'000'000'000;     // ns
 
 void count(std::atomic<std::uint64_t>& counter) {
   counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
@@ -55,15 +68,26 @@ void DriverLink::connect(const DeviceInfo& info) {
   ramp_ = 0.0;
   force_time_ = 0;
   stopped_ = true;
+  given_.setZero();
+  moved_time_ = window_begin_ = refused_until_ = 0;
   ++jumps_;
-  tell({});
+  troubles_.store(0, std::memory_order_relaxed);
+  pushes_since_.store(0, std::memory_order_relaxed);
+  {
+    const std::lock_guard lock(condition_guard_);
+    withheld_why_.clear();
+    told_.clear();
+  }
   connection_.fetch_add(1, std::memory_order_release);
   connected_.store(true, std::memory_order_release);
 }
 
 void DriverLink::disconnect(const std::string& why) {
-  // Told first, so that whoever sees that it is lost also finds why.
-  tell(why);
+  {
+    const std::lock_guard lock(condition_guard_);
+    lost_why_ = why;
+  }
+  // Only now, so that whoever sees that it is lost also finds why.
   connected_.store(false, std::memory_order_release);
 }
 
@@ -93,10 +117,19 @@ bool DriverLink::is_spike(const PointerState& reading, std::int64_t now) {
   return odd_readings_ < kLastingReadings;
 }
 
-void DriverLink::pass(const PointerState& reading, std::int64_t now) {
-  if (!makes_sense(reading)) return;
+/// Does a reading reach the servo?
+bool DriverLink::is_taken(const PointerState& reading, std::int64_t now) {
+  if (!makes_sense(reading)) return false;
   jump_told_ = jump_told_ || reading.jumped;
-  if (is_spike(reading, now)) return count(spikes_);
+  if (!is_spike(reading, now)) return true;
+  count(spikes_);
+  return false;
+}
+
+void DriverLink::pass(const PointerState& reading, std::int64_t now) {
+  const bool taken = is_taken(reading, now);
+  watch_refusals(!taken, now);
+  if (!taken) return;
   if (odd_readings_ > 0 || jump_told_) {
     odd_readings_ = 0;
     jump_told_ = false;
@@ -104,6 +137,8 @@ void DriverLink::pass(const PointerState& reading, std::int64_t now) {
     // The force that is asked for still belongs to the place before.
     ramp_ = 0.0;
   }
+  watch_stillness(reading, given_, now);
+  trouble(kSilent, false);
   last_ = reading;
   last_time_ = now;
   Reading& next = readings_.write_slot();
@@ -121,15 +156,85 @@ void DriverLink::pass(const PointerState& reading, std::int64_t now) {
   count(passed_);
 }
 
+void DriverLink::leave_out(std::int64_t now) {
+  count(left_out_);
+  watch_refusals(true, now);
+}
+
+/// People are told once a good share of the readings is refused; one now and then is nothing to tell.
+void DriverLink::watch_refusals(bool refused, std::int64_t now) {
+  if (window_begin_ == 0 || now < window_begin_) window_begin_ = now;
+  ++window_readings_;
+  window_refused_ += refused ? 1 : 0;
+  if (now - window_begin_ >= kCountRefusals) {
+    if (window_refused_ > kFewRefusals && window_refused_ > window_readings_ / kRefusedShare)
+      refused_until_ = now + kTellRefusals;
+    window_begin_ = now;
+    window_readings_ = window_refused_ = 0;
+  }
+  trouble(kRefuses, now < refused_until_);
+}
+
+/// Readings that stay the same while the device pushes are none: a hand always moves a little. Once they are
+/// known to stand still the force waits for another one.
+void DriverLink::watch_stillness(const PointerState& reading, const Vector3& given, std::int64_t now) {
+  if (may_keep_still_) return;
+  const bool same = last_time_ != 0 && reading.position == last_.position &&
+                    reading.velocity == last_.velocity &&
+                    reading.orientation.coeffs() == last_.orientation.coeffs();
+  const bool in_a_row = last_time_ != 0 && now - last_time_ <= kSilence;
+  const bool stood_still = (troubles_.load(std::memory_order_relaxed) & kStill) != 0;
+  if (!same || (!stood_still && (!in_a_row || given.norm() < kPushes))) moved_time_ = now;
+  trouble(kStill, now - moved_time_ > kFrozen || (stood_still && same));
+}
+
+/// Notes that a trouble lasts, or that it is over.
+void DriverLink::trouble(Trouble which, bool lasts) {
+  constexpr unsigned kTakesForce = kWithheld | kSilent | kStill;
+  const unsigned before = lasts ? troubles_.fetch_or(which) : troubles_.fetch_and(~unsigned(which));
+  if (!lasts && (before & which & kTakesForce) != 0 && ((before & ~unsigned(which)) & kTakesForce) == 0)
+    pushes_since_.store(base::steady_nanoseconds(), std::memory_order_relaxed);
+}
+
+void DriverLink::withhold(const std::string& why) {
+  {
+    const std::lock_guard lock(condition_guard_);
+    if (why == withheld_why_) return;
+    withheld_why_ = why;
+  }
+  trouble(kWithheld, !why.empty());
+}
+
+bool DriverLink::may_push(std::int64_t now) {
+  const std::int64_t silence = last_time_ == 0 ? 0 : now - last_time_;
+  if (silence > kTellSilence) trouble(kSilent, true);
+  const unsigned troubles = troubles_.load(std::memory_order_relaxed);
+  return silence <= kSilence && (troubles & (kWithheld | kStill)) == 0;
+}
+
+void DriverLink::take_force_away() {
+  if (!stopped_) count(watchdog_stops_);
+  stopped_ = true;
+  ramp_ = 0.0;
+}
+
 Vector3 DriverLink::force(std::int64_t now) {
+  given_ = allowed_force(now);
+  return given_;
+}
+
+Vector3 DriverLink::allowed_force(std::int64_t now) {
   asked_.update();
   const Asked& asked = asked_.read();
   const double seconds = force_time_ == 0 ? 0.0 : static_cast<double>(now - force_time_) * 1e-9;
   force_time_ = now;
-  if (asked.time == 0 || now - asked.time > kWatchdog) {
-    if (!stopped_) count(watchdog_stops_);
+  if (!may_push(now)) {
     stopped_ = true;
     ramp_ = 0.0;
+    return Vector3::Zero();
+  }
+  if (asked.time == 0 || now - asked.time > kWatchdog) {
+    take_force_away();
     return Vector3::Zero();
   }
   stopped_ = false;
@@ -143,19 +248,47 @@ Vector3 DriverLink::force(std::int64_t now) {
 
 void DriverLink::tell(const std::string& condition) {
   const std::lock_guard lock(condition_guard_);
-  condition_ = condition;
+  told_ = condition;
 }
 
 LinkCounts DriverLink::counts() const {
   const auto value = [](const std::atomic<std::uint64_t>& counter) {
     return counter.load(std::memory_order_relaxed);
   };
-  return {value(passed_), value(not_finite_), value(far_away_), value(spikes_), value(watchdog_stops_)};
+  return {value(passed_), value(not_finite_), value(far_away_),
+          value(spikes_), value(left_out_),   value(watchdog_stops_)};
 }
 
 std::string DriverLink::condition() const {
   const std::lock_guard lock(condition_guard_);
-  return condition_;
+  if (!connected()) return lost_why_;
+  const unsigned troubles = troubles_.load(std::memory_order_relaxed);
+  const std::int64_t pushes_since = pushes_since_.load(std::memory_order_relaxed);
+  std::string all;
+  const auto add = [&all](const std::string& line) {
+    if (!line.empty()) all += (all.empty() ? "" : "\n") + line;
+  };
+  const auto add_no_force = [&](const std::string& why) { add(std::string(kNoForce) + why); };
+  if (!withheld_why_.empty()) add_no_force(withheld_why_);
+  if ((troubles & kSilent) != 0)
+    add_no_force(
+        "it tells nothing new of its place; see that it is switched on and that nothing is in its way");
+  if ((troubles & kStill) != 0)
+    add_no_force(
+        "what it tells of its place stays the same while it pushes; move it, or else unplug it and plug it "
+        "in "
+        "again");
+  if ((troubles & (kWithheld | kSilent | kStill)) == 0 && pushes_since != 0 &&
+      base::steady_nanoseconds() - pushes_since < kTellReturn)
+    add("It gives forces again, which grow from none");
+  if ((troubles & kRefuses) != 0)
+    add(
+        fmt::format("Some of its readings make no sense and are left out (times so far: {}); look at its "
+                    "cable and what is "
+                    "near it",
+                    counts().refused()));
+  add(told_);
+  return all;
 }
 
 }  // namespace icome::devices

@@ -51,6 +51,11 @@ base::Result<SharedLibrary> SharedLibrary::open(const LibrarySought& sought) {
     if (void* handle = dlopen(name, kLoading)) return SharedLibrary(handle, name, sought.what);
     if (trouble.empty()) trouble = trouble_with(name);
   }
+  if (!trouble.empty() && is_chosen)
+    return base::fail(
+        fmt::format("{} is set to {}, which cannot be loaded as the library of {} ({}); correct or "
+                    "unset it",
+                    sought.variable, chosen, sought.what, trouble));
   if (!trouble.empty())
     return base::fail(fmt::format("the library of {} is there, but cannot be loaded ({}); {}", sought.what,
                                   trouble, sought.advice));

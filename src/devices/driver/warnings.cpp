@@ -43,7 +43,7 @@ std::string Warnings::sentences_of(unsigned which) const {
   std::string all;
   for (std::size_t i = 0; i < sentences_.size(); ++i) {
     if ((which >> i & 1U) == 0) continue;
-    all += all.empty() ? "" : ". ";
+    all += all.empty() ? "" : "\n";
     all += fmt::format(fmt::runtime(sentences_[i]), counts_[i].load(std::memory_order_relaxed));
   }
   return all;

@@ -39,6 +39,9 @@ base::Result<std::unique_ptr<PointerDevice>> open_kind(std::string_view address)
 
 template <InputKind Kind>
 std::vector<DeviceEntry> list_kind() {
+  const std::string backend(kind_name(Kind));
+  if (const auto reader = reader_of(Kind); !reader)
+    return {{backend, "pointer", backend, false, reader.error().message}};
   const std::shared_ptr<InputSystem> system = linux_inputs();
   std::vector<DeviceEntry> entries = list_inputs(*system, Kind, "pointer");
   if (Kind != InputKind::Gamepad) return entries;

@@ -36,6 +36,7 @@ base::Result<DeviceInfo> InputDriver::open() {
 std::string InputDriver::run(DriverLink& link, const std::atomic<bool>& stop) {
   if (kind_ == InputKind::Gamepad && input_.node->abilities().rumble_refused)
     link.tell(fmt::format("{}: no rumble, as it may not be written to; {}", name_, permission_advice(kind_)));
+  link.may_keep_still();
   bool there = true;
   while (there && !stop.load(std::memory_order_relaxed)) {
     there = take_in();

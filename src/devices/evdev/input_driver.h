@@ -21,6 +21,7 @@ class InputDriver final : public Driver {
   base::Result<DeviceInfo> open() override;
   std::string run(DriverLink& link, const std::atomic<bool>& stop) override;
   void close() override;
+  std::string identity() const override { return input_.node ? input_.node->abilities().path : ""; }
 
  private:
   bool take_in();

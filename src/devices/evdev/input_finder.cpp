@@ -5,26 +5,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <mutex>
-#include <set>
 #include <utility>
 
 #include "base/shown_text.h"
 #include "base/utf8.h"
+#include "devices/driver/udev_rule.h"
 
 namespace icome::devices {
 namespace {
-
-/// The paths of the nodes that this program uses.
-struct NodesInUse {
-  std::mutex guard;
-  std::set<std::string> paths;
-};
-
-NodesInUse& nodes_in_use() {
-  static NodesInUse nodes;
-  return nodes;
-}
 
 std::string lower_case(std::string_view text) {
   std::string result(text);
@@ -120,9 +108,9 @@ base::Result<FoundInput> find_by_path(InputSystem& system, InputKind kind, const
   if (!is_of_kind((*node)->abilities(), kind))
     return base::fail(fmt::format("{} is no {} but \"{}\"; see what there is by `icome devices`", shown, name,
                                   shown_name((*node)->abilities())));
-  InputClaim claim = InputClaim::of((*node)->abilities().path);
-  if (!claim) return base::fail(fmt::format("{} is in use by this program already; close it there", shown));
-  return FoundInput{std::move(claim), std::move(*node)};
+  auto claim = DeviceClaim::of((*node)->abilities().path);
+  if (!claim) return base::fail(in_use_text(shown));
+  return FoundInput{std::move(*claim), std::move(*node)};
 }
 
 }  // namespace
@@ -161,34 +149,9 @@ std::string shown_name(const InputAbilities& abilities) {
 }
 
 std::string permission_advice(InputKind kind) {
-  return fmt::format(
-      "add yourself to the group input (sudo usermod -aG input \"$USER\", then log in again), or put this "
-      "udev "
-      "rule into /etc/udev/rules.d/70-icome-input.rules and plug the device in again: SUBSYSTEM==\"input\", "
-      "KERNEL==\"event*\", ENV{{{}}}==\"1\", TAG+=\"uaccess\"",
-      udev_property(kind));
-}
-
-InputClaim InputClaim::of(const std::string& path) {
-  InputClaim claim;
-  NodesInUse& nodes = nodes_in_use();
-  const std::lock_guard lock(nodes.guard);
-  if (nodes.paths.insert(path).second) claim.path_ = path;
-  return claim;
-}
-
-InputClaim::InputClaim(InputClaim&& other) noexcept : path_(std::exchange(other.path_, {})) {}
-
-InputClaim& InputClaim::operator=(InputClaim&& other) noexcept {
-  std::swap(path_, other.path_);
-  return *this;
-}
-
-InputClaim::~InputClaim() {
-  if (path_.empty()) return;
-  NodesInUse& nodes = nodes_in_use();
-  const std::lock_guard lock(nodes.guard);
-  nodes.paths.erase(path_);
+  return "add yourself to the group input (sudo usermod -aG input \"$USER\", then log in again), or " +
+         udev_rule_advice("input", fmt::format(R"(SUBSYSTEM=="input", KERNEL=="event*", ENV{{{}}}=="1")",
+                                               udev_property(kind)));
 }
 
 base::Result<FoundInput> find_input(InputSystem& system, InputKind kind, std::string_view address,
@@ -202,11 +165,11 @@ base::Result<FoundInput> find_input(InputSystem& system, InputKind kind, std::st
   for (auto& node : look.of_kind) {
     const int fit = name_fit(shown_name(node->abilities()), address, preferred);
     if (fit <= best) continue;
-    InputClaim claim = InputClaim::of(node->abilities().path);
+    auto claim = DeviceClaim::of(node->abilities().path);
     in_use = in_use || !claim;
     if (!claim) continue;
     best = fit;
-    found.claim = std::move(claim);
+    found.claim = std::move(*claim);
     found.node = std::move(node);
   }
   if (best > 0) return found;
@@ -230,7 +193,7 @@ std::vector<DeviceEntry> list_inputs(InputSystem& system, InputKind kind, std::s
     const std::string& path = node->abilities().path;
     const bool by_name = alike == 1 && !name.starts_with('/');
     entries.push_back({fmt::format("{}:{}", backend, by_name ? name : path), std::string(family), backend,
-                       true, by_name ? path : fmt::format("{}, {}", name, path)});
+                       true, by_name ? path : fmt::format("{}, {}", name, path), path});
   }
   return entries;
 }

@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "devices/back_end.h"
+#include "devices/driver/device_claim.h"
 #include "devices/evdev/input_node.h"
 
 namespace icome::devices {
@@ -25,23 +26,8 @@ std::string shown_name(const InputAbilities& abilities);
 /// A sentence that tells people how to be permitted to use devices of that kind.
 std::string permission_advice(InputKind kind);
 
-/// The use of a node by this program: two devices that are opened at once never share one.
-class InputClaim {
- public:
-  InputClaim() = default;
-  /// Claims a node; empty where the node is in use. Any thread.
-  static InputClaim of(const std::string& path);
-  InputClaim(InputClaim&& other) noexcept;
-  InputClaim& operator=(InputClaim&& other) noexcept;
-  ~InputClaim();
-  explicit operator bool() const { return !path_.empty(); }
-
- private:
-  std::string path_;
-};
-
 struct FoundInput {
-  InputClaim claim;
+  DeviceClaim claim;
   std::unique_ptr<InputNode> node;  // never null
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <optional>
 #include <string>
@@ -30,6 +31,15 @@ std::string nearest_name(std::span<const NamedNumber> numbers, std::string_view 
   return base::suggestion(name, std::move(names));
 }
 
+/// Words for who separates settings by something else than blanks; empty for others.
+std::string separators_advice(std::string_view word, std::span<const NamedNumber> numbers) {
+  if (word.find_first_of(",;&") == std::string_view::npos) return {};
+  std::string text;
+  for (const NamedNumber& number : numbers.first(std::min<std::size_t>(2, numbers.size())))
+    text += fmt::format("{}{}={:g}", text.empty() ? "" : " ", number.name, *number.value);
+  return "; blanks separate settings, as in \"" + text + "\"";
+}
+
 }  // namespace
 
 base::Result<void> set_numbers(std::string_view source, std::string_view text,
@@ -44,13 +54,14 @@ base::Result<void> set_numbers(std::string_view source, std::string_view text,
     const NamedNumber* number = named_number(numbers, name);
     const std::string shown = base::shown_text(base::as_utf8(word));
     if (number == nullptr)
-      return base::fail(
-          fmt::format("{}: \"{}\" is no setting{}", source, shown, nearest_name(numbers, name)));
+      return base::fail(fmt::format("{}: \"{}\" is no setting{}{}", source, shown,
+                                    nearest_name(numbers, name), separators_advice(word, numbers)));
     const auto value =
         equals == std::string_view::npos ? std::nullopt : base::parse_finite(word.substr(equals + 1));
     if (!value || !(*value >= number->least && *value <= number->most))
-      return base::fail(fmt::format("{}: \"{}\" should read {}=NUMBER, with a number from {:g} to {:g}",
-                                    source, shown, name, number->least, number->most));
+      return base::fail(fmt::format("{}: \"{}\" should read {}=NUMBER, with a number from {:g} to {:g}{}",
+                                    source, shown, name, number->least, number->most,
+                                    separators_advice(word, numbers)));
     given.emplace_back(number, *value);
   }
   for (const auto& [number, value] : given) *number->value = value;

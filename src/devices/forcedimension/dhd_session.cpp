@@ -4,12 +4,22 @@
 
 #include <algorithm>
 
+#include "devices/driver/device_claim.h"
+#include "devices/driver/udev_rule.h"
+
 namespace icome::devices {
 namespace {
 
 std::string text_or_empty(const char* text) { return text != nullptr ? text : ""; }
 
 }  // namespace
+
+std::string dhd_identity(int index) { return fmt::format("dhd:{}", index); }
+
+std::string dhd_permission_advice() {
+  return udev_rule_advice("dhd", R"(SUBSYSTEM=="usb", ATTR{idVendor}=="1451")") +
+         R"( (a Novint Falcon: ATTR{idVendor}=="0403", ATTR{idProduct}=="cb48"))";
+}
 
 DhdSession& DhdSession::instance() {
   static DhdSession session;
@@ -21,24 +31,27 @@ base::Result<DhdDevice> DhdSession::open(const DhdLibrary& dhd, std::optional<in
   const std::lock_guard lock(guard_);
   const int count = dhd.get_device_count();
   if (count <= 0)
-    return base::fail(
-        "no device of Force Dimension or Novint answers; plug it in, switch it on, and see that you may use "
-        "it "
-        "(the udev rule of its SDK)");
+    return base::fail("no device of Force Dimension or Novint answers; plug it in and switch it on, or " +
+                      dhd_permission_advice());
   if (index && *index >= count)
     return base::fail(fmt::format("there is no dhd:{}; devices that are plugged in: {}", *index, count));
-  std::string why = "another part of the program has it; close that first";
+  std::string why;
   for (int i = index.value_or(0); i <= index.value_or(count - 1); ++i) {
-    if (find_open(i) != nullptr) continue;
+    if (find_open(i) != nullptr) {
+      if (why.empty()) why = in_use_text(dhd_identity(i));
+      continue;
+    }
     auto device = open_one(dhd, i);
     if (device && (model.empty() || device->model == model)) {
       open_.push_back(*device);
       return device;
     }
-    why = device ? fmt::format("it is a {}, no {}", device->model, model) : device.error().message;
+    why =
+        fmt::format("{} cannot be opened: {}", dhd_identity(i),
+                    device ? fmt::format("it is a {}, no {}", device->model, model) : device.error().message);
     if (device) dhd.close(device->id);
   }
-  return base::fail(fmt::format("dhd:{} cannot be opened: {}", index.value_or(0), why));
+  return base::fail(why);
 }
 
 base::Result<DhdDevice> DhdSession::open_one(const DhdLibrary& dhd, int index) const {

@@ -16,6 +16,12 @@ struct DhdDevice {
   std::string model;  // "omega.7"
 };
 
+/// Driver::identity() of the device of that index, which is its address, too.
+std::string dhd_identity(int index);
+
+/// Words that tell people what to do to be permitted to use a device.
+std::string dhd_permission_advice();
+
 /// The devices of Force Dimension's library that this program has open, each once. Any thread.
 class DhdSession {
  public:

@@ -51,10 +51,14 @@ base::Result<std::optional<int>> index_of(std::string_view address) {
 }
 
 DeviceEntry dhd_entry(std::string name, bool present, std::string why) {
-  return {std::move(name), "pointer", std::string(kForceDimension.name), present, std::move(why)};
+  std::string identity = present ? name : "";
+  return {std::move(name), "pointer",      std::string(kForceDimension.name),
+          present,         std::move(why), std::move(identity)};
 }
 
 std::vector<DeviceEntry> list_dhd() {
+  if (const auto settings = force_dimension_settings(); !settings)
+    return {dhd_entry("dhd", false, settings.error().message)};
   const auto dhd = DhdLibrary::load();
   if (!dhd) return {dhd_entry("dhd", false, dhd.error().message)};
   std::vector<DeviceEntry> entries;
@@ -63,12 +67,14 @@ std::vector<DeviceEntry> list_dhd() {
     entries.push_back(dhd_entry(fmt::format("dhd:{}", device.index), present,
                                 present ? device.model
                                         : "it is plugged in, but cannot be opened; close other programs that "
-                                          "use it, and see that you may use it (the udev rule of its SDK)"));
+                                          "use it, or " +
+                                              dhd_permission_advice()));
   }
   if (entries.empty())
     entries.push_back(dhd_entry("dhd", false,
-                                "the library is there, but no device answers; plug it in, switch it on, and "
-                                "see that you may use it (the udev rule of its SDK)"));
+                                "the library is there, but no device answers; plug it in and switch it on, "
+                                "or " +
+                                    dhd_permission_advice()));
   return entries;
 }
 

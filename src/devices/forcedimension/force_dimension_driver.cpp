@@ -46,6 +46,8 @@ base::Result<DeviceInfo> ForceDimensionDriver::open() {
   }
   DeviceInfo info = force_dimension_profile(model_);
   info.name = model_;
+  // Of two alike people need to know which.
+  if (device_->index > 0) info.name += " (" + identity() + ")";
   return info;
 }
 

@@ -21,6 +21,7 @@ class ForceDimensionDriver final : public Driver {
   base::Result<DeviceInfo> open() override;
   std::string run(DriverLink& link, const std::atomic<bool>& stop) override;
   void close() override;
+  std::string identity() const override { return device_ ? dhd_identity(device_->index) : ""; }
 
  private:
   static constexpr std::size_t kTimeGuards = 0;

@@ -24,7 +24,8 @@ DeviceEntry haply_entry(const InverseService& service, std::size_t index, const 
     what += ", Inverse Service " + base::terminal_text(service.version().text);
   if (!arm.powered) what += "; it has no power";
   if (!arm.calibrated) what += "; it is not calibrated";
-  return {"haply:" + std::string(arm.id.text()), "pointer", std::string(kHaplyName), true, std::move(what)};
+  const std::string address = "haply:" + std::string(arm.id.text());
+  return {address, "pointer", std::string(kHaplyName), true, std::move(what), address};
 }
 
 std::vector<DeviceEntry> list_haply() {

@@ -10,9 +10,7 @@
 namespace icome::devices {
 namespace {
 
-constexpr std::int64_t kNonsenseShown = 5'000'000'000;  // ns
-constexpr std::int64_t kEventShown = 30'000'000'000;    // ns
-constexpr std::int64_t kTooOld = 3600'000'000'000;      // ns, age of no force that is still given
+constexpr std::int64_t kEventShown = 30'000'000'000;  // ns
 
 HaplySettings bounded_settings(HaplySettings settings) {
   settings.rate = std::clamp(settings.rate, 250.0, 8000.0);
@@ -33,11 +31,26 @@ base::Result<DeviceInfo> HaplyDriver::open() {
   if (!info) return info;
   auto service = InverseService::connect(settings_, stop_);
   if (!service) return tl::unexpected(service.error());
-  const auto id = (*service)->choose(device_id_);
+  const auto id = choose_arm(**service);
   if (!id) return tl::unexpected(id.error());
+  // Kept while the device is away: another part of the program would find it back at the same time.
+  if (!claim_) {
+    auto claim = DeviceClaim::of("haply:" + *id);
+    if (!claim) return tl::unexpected(claim.error());
+    claim_ = std::move(*claim);
+  }
   device_id_ = *id;
   service_ = std::move(*service);
+  info->name += " " + device_id_;
   return info;
+}
+
+/// Chooses the arm of our id or, before there is one, the first that is free, or else the first.
+base::Result<std::string> HaplyDriver::choose_arm(InverseService& service) const {
+  if (!device_id_.empty()) return service.choose(device_id_);
+  for (const ServiceArm& arm : service.state().arms())
+    if (!DeviceClaim::is_taken("haply:" + std::string(arm.id.text()))) return service.choose(arm.id.text());
+  return service.choose({});
 }
 
 void HaplyDriver::close() {
@@ -49,8 +62,8 @@ std::string HaplyDriver::run(DriverLink& link, const std::atomic<bool>& stop) {
   stop_ = &stop;
   service_->stop_by(stop_);
   shown_ = {};
+  withheld_ = {};
   disconnections_ = heard_ = 0;
-  refused_time_ = 0;
   if (settings_.events_port != 0)
     events_.emplace(ServiceAddress{settings_.service.host, settings_.events_port}, device_id_);
   Pace pace(settings_.rate);
@@ -60,6 +73,7 @@ std::string HaplyDriver::run(DriverLink& link, const std::atomic<bool>& stop) {
 }
 
 bool HaplyDriver::exchange(DriverLink& link) {
+  withhold(link);
   if (events_ && events_->disconnections() != disconnections_) {
     disconnections_ = events_->disconnections();
     service_->doubt();
@@ -68,12 +82,11 @@ bool HaplyDriver::exchange(DriverLink& link) {
       service_->exchange([&] { return frame_.service_force(link.force(base::steady_nanoseconds())); });
   if (answer == InverseService::Answer::Lost) return false;
   const std::int64_t now = base::steady_nanoseconds();
-  // Asked for the force of a time when each is too old, the link begins again with its ramp.
-  if (service_->took_force_away()) static_cast<void>(link.force(now + kTooOld));
+  if (service_->took_force_away()) link.take_force_away();
   if (answer == InverseService::Answer::Fresh)
     link.pass(frame_.state_of(service_->arm(), service_->grip()), now);
   else
-    refused_time_ = now;
+    link.leave_out(now);
   tell(link, now);
   return true;
 }
@@ -81,30 +94,34 @@ bool HaplyDriver::exchange(DriverLink& link) {
 /// Tells people of changes, and only of these, as a sentence takes memory.
 void HaplyDriver::tell(DriverLink& link, std::int64_t now) {
   const ServiceArm& arm = service_->arm();
-  const bool sense = refused_time_ == 0 || now - refused_time_ > kNonsenseShown;
   if (const std::uint64_t version = events_ ? events_->version() : 0; version != heard_) {
     heard_ = version;
     heard_time_ = now;
   }
-  const std::uint64_t heard = now - heard_time_ < kEventShown ? heard_ : 0;
-  const Shown due = {arm.calibrated, arm.powered, arm.ready, sense, heard};
+  const Shown due = {arm.calibrated, arm.powered, arm.ready, heard_, now - heard_time_ < kEventShown};
   if (due == shown_) return;
+  // A stop that was triggered before is over with the power.
+  if (events_ && due.powered && !shown_.powered) events_->forget_safety_stop();
   shown_ = due;
-  link.tell(sentences());
+  withhold(link);
+  link.tell(shown_.is_news && events_ ? events_->sentence() : std::string());
 }
 
-std::string HaplyDriver::sentences() const {
-  const std::string name = "Haply Inverse3 " + device_id_;
-  std::string all;
-  const auto add = [&](const std::string& sentence) {
-    all += (all.empty() ? "" : " ") + name + ": " + sentence + ".";
-  };
-  if (!shown_.powered) add("it has no power; plug in its power supply");
-  if (!shown_.calibrated) add("it is not calibrated; do what the Haply Hub asks for");
-  if (!shown_.ready) add("it is not ready yet");
-  if (const std::string said = shown_.events != 0 ? events_->sentence() : ""; !said.empty()) add(said);
-  if (!shown_.sense) add("some of what the Inverse Service sends makes no sense and is left out");
-  return all;
+/// Keeps forces away while the device may not push, at once and before people are told.
+void HaplyDriver::withhold(DriverLink& link) {
+  const bool stopped = events_ && events_->is_safety_stop();
+  const Withheld due = {stopped, shown_.powered, shown_.calibrated, shown_.ready};
+  if (due == withheld_) return;
+  withheld_ = due;
+  link.withhold(why_withheld());
+}
+
+std::string HaplyDriver::why_withheld() const {
+  if (withheld_.stopped) return events_->safety_stop();
+  if (!withheld_.powered) return "it has no power; plug in its power supply";
+  if (!withheld_.calibrated) return "it is not calibrated; do what the Haply Hub asks for";
+  if (!withheld_.ready) return "it is not ready yet; wait, or do what the Haply Hub asks for";
+  return {};
 }
 
 }  // namespace icome::devices

@@ -68,6 +68,8 @@ bool set_grip(HaplySettings& settings, std::string_view text) {
   return !text.empty();
 }
 
+constexpr std::string_view kSeparators = "; blanks separate options, as in \"rate=2000 patience=0.1\"";
+
 struct HaplyOption {
   std::string_view name;
   bool (*set)(HaplySettings& settings, std::string_view value);
@@ -99,13 +101,13 @@ base::Result<void> set_haply_option(HaplySettings& settings, std::string_view op
   for (const HaplyOption& row : kHaplyOptions) {
     if (row.name == name) {
       if (row.set(settings, value)) return {};
-      return base::fail(fmt::format("ICOME_HAPLY_OPTIONS: {} must be {}, not \"{}\"", name, row.values,
-                                    base::shown_text(value)));
+      return base::fail(fmt::format("ICOME_HAPLY_OPTIONS: {} must be {}, not \"{}\"{}", name, row.values,
+                                    base::shown_text(value), kSeparators));
     }
     known += fmt::format("{}{}", known.empty() ? "" : ", ", row.name);
   }
-  return base::fail(fmt::format("ICOME_HAPLY_OPTIONS: no option is called \"{}\"; there are {}",
-                                base::shown_text(name), known));
+  return base::fail(fmt::format("ICOME_HAPLY_OPTIONS: no option is called \"{}\"; there are {}{}",
+                                base::shown_text(name), known, kSeparators));
 }
 
 }  // namespace

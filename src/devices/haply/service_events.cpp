@@ -76,20 +76,38 @@ void ServiceEvents::take(const ServiceEvent& event) {
   const bool of_grip =
       !event.device_family.empty() && event.device_family != "inverse" && event.device_family != "inverse3";
   if (of_grip) {
-    if (!is_mild(event)) say("a VerseGrip: \"" + quoted_words(event) + "\"");
+    if (!is_mild(event)) say("A VerseGrip: \"" + quoted_words(event) + "\"");
     return;
   }
   if (!concerns_device(event)) return;
-  if (event.name == "device-connected") return say({});
-  if (event.name == "device-disconnected") {
-    disconnections_.fetch_add(1, std::memory_order_release);
-    return say("it is disconnected; plug it in again");
+  const bool is_safety = event.name == "device-safety-triggered";
+  if (is_safety && !is_mild(event)) return stop_for_safety(event);
+  if (is_safety || event.name == "device-connected") {
+    forget_safety_stop();
+    return say({});
   }
-  if (event.name == "device-safety-triggered" && !is_mild(event))
-    return say("its safety stop has been triggered: \"" + quoted_words(event) +
-               "\"; let go of it, and see to what the service asks for");
-  if (event.name == "device-safety-triggered") return say({});
-  if (event.category == "device" && !is_mild(event)) say("\"" + quoted_words(event) + "\"");
+  if (event.name == "device-disconnected") {
+    // Whether it is true, and then why it is lost, is told once the service no longer lists it.
+    disconnections_.fetch_add(1, std::memory_order_release);
+    return say({});
+  }
+  if (event.category == "device" && !is_mild(event))
+    say("Haply's service says: \"" + quoted_words(event) + "\"");
+}
+
+void ServiceEvents::stop_for_safety(const ServiceEvent& event) {
+  {
+    const std::lock_guard lock(guard_);
+    safety_stop_ =
+        "its safety stop has been triggered (\"" + quoted_words(event) +
+        "\"); let go of it, see to what the service asks for, and switch it off and on if this stays";
+  }
+  is_safety_stop_.store(true, std::memory_order_release);
+}
+
+std::string ServiceEvents::safety_stop() const {
+  const std::lock_guard lock(guard_);
+  return safety_stop_;
 }
 
 void ServiceEvents::say(std::string sentence) {

@@ -23,9 +23,14 @@ class ServiceEvents {
 
   /// A number that changes with the sentence. Any thread; real-time safe.
   std::uint64_t version() const { return version_.load(std::memory_order_acquire); }
-  /// The sentence that people should know now, which begins with a small letter and has no full stop; empty:
-  /// none. Any thread.
+  /// The sentence that people should know now; empty: none. Any thread.
   std::string sentence() const;
+  /// Has the device stopped for safety, without a word since that this is over? Any thread; real-time safe.
+  bool is_safety_stop() const { return is_safety_stop_.load(std::memory_order_acquire); }
+  /// The reason of that stop, and what to do; valid after is_safety_stop(). Any thread.
+  std::string safety_stop() const;
+  /// The stop is over, as the device was switched off and on. Any thread; real-time safe.
+  void forget_safety_stop() { is_safety_stop_.store(false, std::memory_order_release); }
   /// Number of times that the device was said to be disconnected. Any thread; real-time safe.
   std::uint64_t disconnections() const { return disconnections_.load(std::memory_order_acquire); }
 
@@ -34,6 +39,7 @@ class ServiceEvents {
   void hear_out();
   void take(const ServiceEvent& event);
   void say(std::string sentence);
+  void stop_for_safety(const ServiceEvent& event);
   bool concerns_device(const ServiceEvent& event) const;
 
   const ServiceAddress channel_;
@@ -41,8 +47,10 @@ class ServiceEvents {
   std::atomic<bool> stop_ = false;
   std::atomic<std::uint64_t> version_ = 0;
   std::atomic<std::uint64_t> disconnections_ = 0;
+  std::atomic<bool> is_safety_stop_ = false;
   mutable std::mutex guard_;
   std::string sentence_;
+  std::string safety_stop_;
   std::thread thread_;
 };
 

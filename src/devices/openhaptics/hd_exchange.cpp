@@ -128,16 +128,14 @@ void HdExchange::rest_in_turn() {
   static_cast<void>(hd_.first_error());
 }
 
-void HdExchange::check_calibration() {
-  if (hd_.check_calibration == nullptr) return;
+std::optional<unsigned> HdExchange::calibration() {
+  if (hd_.check_calibration == nullptr) return std::nullopt;
   const HdTurns::Turn turn = turns_.take(kFramePatience);
-  if (!turn) return;  // it is asked for again
+  if (!turn) return std::nullopt;
   hd_.make_current_device(device_);
   const unsigned state = hd_.check_calibration();
   static_cast<void>(hd_.first_error());
-  const std::int64_t now = base::steady_nanoseconds();
-  if (state == HdLibrary::kCalibrationNeedsUpdate) warnings_->note(std::size_t(HdWarning::Calibrate), now);
-  if (state == HdLibrary::kCalibrationNeedsHand) warnings_->note(std::size_t(HdWarning::Inkwell), now);
+  return state;
 }
 
 }  // namespace icome::devices

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "devices/driver/driver_link.h"
 #include "devices/driver/warnings.h"
@@ -13,7 +14,7 @@
 namespace icome::devices {
 
 /// Warnings of a PHANToM or Touch.
-enum class HdWarning : std::uint8_t { Hot, TooStrong, Calibrate, Inkwell, Other, Paused };
+enum class HdWarning : std::uint8_t { Hot, TooStrong, Other, Paused };
 
 /// The frames of one device: readings and forces that pass through a link. One thread calls frame(), any
 /// thread the others.
@@ -31,8 +32,9 @@ class HdExchange {
   /// Makes a last frame without force; then the device's force is switched off. False, and nothing is done,
   /// where the turn does not come within 0.1 s.
   bool rest();
-  /// Notes whether the device wants to be calibrated.
-  void check_calibration();
+  /// The state of calibration that the library tells; nothing where it has no such function, or where the
+  /// turn does not come.
+  std::optional<unsigned> calibration();
   /// Uses the link no more once this returns. A frame that hangs in the library gives no force when it goes
   /// on, and puts the device to rest.
   void let_go();

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "devices/driver/device_claim.h"
+#include "devices/driver/udev_rule.h"
 #include "devices/openhaptics/open_haptics.h"
 
 namespace icome::devices {
@@ -99,11 +101,9 @@ HdSession& HdSession::instance() {
 base::Result<HdDevice> HdSession::open(const HdLibrary& hd, const std::string& name, double rate) {
   const std::lock_guard lock(guard_);
   shut_those_that_hung(hd);
-  for (const HdDevice& other : open_) {
+  for (const HdDevice& other : open_)
     if (other.hangs) return hanging_library();
-    if (other.name == name)
-      return base::fail("another part of the program has this PHANToM or Touch; close that first");
-  }
+  if (const HdDevice* const other = find_open(name)) return base::fail(in_use_text(other->address()));
   const Pause pause(*this, hd);
   if (!pause) return hanging_library();
   auto device = start(hd, name, rate);
@@ -141,16 +141,38 @@ base::Result<HdDevice> HdSession::init(const HdLibrary& hd, const std::string& n
   if (device.handle == HdLibrary::kInvalidDevice || error == HdLibrary::kCommunication ||
       error == HdLibrary::kDeviceFault) {
     if (device.handle != HdLibrary::kInvalidDevice) hd.disable_device(device.handle);
-    return base::fail(
-        fmt::format("no PHANToM or Touch answers{} ({}); plug it in, switch it on, and try the test program "
-                    "of its driver",
-                    name.empty() ? "" : " by the name of " + name,
-                    error != 0 ? hd.text_of(error) : "no reason is given"));
+    return tl::unexpected(no_answer(name, error != 0 ? hd.text_of(error) : "no reason is given"));
   }
   hd.make_current_device(device.handle);
   describe(hd, device);
   static_cast<void>(hd.first_error());
+  identities_[name] = device.identity();
   return device;
+}
+
+/// A library does not say that a device is open by another name; it only gives none.
+base::Error HdSession::no_answer(const std::string& name, const std::string& why) const {
+  const std::string by_name = name.empty() ? "" : " by the name of " + name;
+  if (open_.empty())
+    return {
+        fmt::format("no PHANToM or Touch answers{} ({}); plug it in, switch it on, and try the test program "
+                    "of its driver; where only root may use a Touch, {}",
+                    by_name, why, udev_rule_advice("hd", R"(SUBSYSTEMS=="usb", ATTRS{idVendor}=="2988")"))};
+  std::string others;
+  for (const HdDevice& other : open_) others += (others.empty() ? "" : " or ") + other.address();
+  return {
+      fmt::format("no other PHANToM or Touch answers{} ({}); if it is the one that this program uses as {}, "
+                  "disconnect it there first, else plug it in and switch it on",
+                  by_name, why, others)};
+}
+
+/// The open device of that name, or the one that was seen under it before; null without one.
+const HdDevice* HdSession::find_open(const std::string& name) const {
+  const auto seen = identities_.find(name);
+  const auto it = std::find_if(open_.begin(), open_.end(), [&](const HdDevice& device) {
+    return device.name == name || (seen != identities_.end() && seen->second == device.identity());
+  });
+  return it != open_.end() ? &*it : nullptr;
 }
 
 void HdSession::close(const HdLibrary& hd, const HdDevice& device) {
@@ -181,9 +203,7 @@ void HdSession::shut_those_that_hung(const HdLibrary& hd) {
 base::Result<HdDevice> HdSession::look(const HdLibrary& hd, const std::string& name) {
   const std::lock_guard lock(guard_);
   shut_those_that_hung(hd);
-  for (const HdDevice& device : open_) {
-    if (device.name == name && !device.hangs) return device;
-  }
+  if (const HdDevice* const device = find_open(name); device != nullptr && !device->hangs) return *device;
   const Pause pause(*this, hd);
   if (!pause) return hanging_library();
   auto device = init(hd, name);

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -17,12 +18,17 @@ struct HdDevice {
   std::string name;  // in the settings of the device's driver; empty: the default one
   std::string vendor;
   std::string serial;
+  /// Driver::identity(): by the serial number, as one device may have two names.
+  std::string identity() const { return serial.empty() ? "hd:" + name : "hd#" + serial; }
+  /// The address that opens it.
+  std::string address() const { return name.empty() ? "hd" : "hd:" + name; }
   DeviceInfo info;     // named as its model; the profile's limits or its own, whichever are lower
   bool hangs = false;  // it was to be closed while a call of the library hung
 };
 
-/// The devices of OpenHaptics that this program has open, each once. Its scheduler runs from the first to the
-/// last: it is stopped before the last one is disabled, and never while another is in use. Any thread.
+/// The devices of OpenHaptics that this program has open, each once, by whichever name. Its scheduler runs
+/// from the first to the last: it is stopped before the last one is disabled, and never while another is in
+/// use. Any thread.
 ///
 /// While a device is opened, looked at or closed, the others give no force, and begin again with a ramp: that
 /// changes the library's current device, and may take seconds, so no frames can be made beside it.
@@ -50,12 +56,15 @@ class HdSession {
   class Pause;
   base::Result<HdDevice> init(const HdLibrary& hd, const std::string& name);
   base::Result<HdDevice> start(const HdLibrary& hd, const std::string& name, double rate);
+  const HdDevice* find_open(const std::string& name) const;
+  base::Error no_answer(const std::string& name, const std::string& why) const;
   bool shut(const HdLibrary& hd, unsigned device);
   void shut_those_that_hung(const HdLibrary& hd);
 
   std::mutex guard_;
   HdTurns turns_;  // no turn is held while the scheduler is stopped, which waits for frames
   std::vector<HdDevice> open_;
+  std::map<std::string, std::string> identities_;  // of the devices that were seen, by their names
   std::vector<std::shared_ptr<void>> kept_;
 };
 

@@ -31,6 +31,7 @@ DeviceEntry hd_entry(const HdLibrary& hd, const std::string& name) {
   entry.why =
       device ? fmt::format("{} of {}, serial number {}", device->info.name, device->vendor, device->serial)
              : device.error().message;
+  if (device) entry.identity = device->identity();
   return entry;
 }
 
@@ -47,6 +48,8 @@ std::vector<std::string> hd_names() {
 }
 
 std::vector<DeviceEntry> list_hd() {
+  if (const auto settings = open_haptics_settings(); !settings)
+    return {{"hd", "pointer", std::string(kOpenHaptics.name), false, settings.error().message}};
   const auto hd = HdLibrary::load();
   if (!hd) return {{"hd", "pointer", std::string(kOpenHaptics.name), false, hd.error().message}};
   std::vector<DeviceEntry> entries;

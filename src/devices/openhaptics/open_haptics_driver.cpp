@@ -10,11 +10,9 @@
 namespace icome::devices {
 namespace {
 
-constexpr std::array<const char*, 6> kHdWarnings = {
+constexpr std::array<const char*, 4> kHdWarnings = {
     "The motors are hot: the device weakens until they have cooled; let it rest",
     "More force was asked for than the device gives: it is cut (times so far: {})",
-    "The device wants to be calibrated: run the setup program of its driver",
-    "The device is not calibrated: put the stylus into the inkwell",
     "The library of the device reports errors; it goes on as long as they pass (errors so far: {})",
     "Another PHANToM or Touch is being opened or closed: this one gives no force meanwhile"};
 
@@ -92,6 +90,18 @@ void end_callback(const HdLibrary& hd, const std::shared_ptr<HdCallback>& callba
   static_cast<void>(callback->exchange.rest());
 }
 
+/// The reason why a device in that state of calibration may not push: its places are not where the hand is.
+std::string why_withheld(unsigned calibration) {
+  switch (calibration) {
+    case HdLibrary::kCalibrationNeedsUpdate:
+      return "it wants to be calibrated; run the setup program of its driver";
+    case HdLibrary::kCalibrationNeedsHand:
+      return "it is not calibrated; put the stylus into the inkwell";
+    default:
+      return {};
+  }
+}
+
 /// Takes all errors of the library. Returns the first one; 0 without any.
 unsigned take_hd_errors(const HdLibrary& hd) {
   const HdTurns::Turn turn = HdSession::instance().turns().take(kTurnPatience);
@@ -113,7 +123,10 @@ base::Result<DeviceInfo> OpenHapticsDriver::open() {
   auto device = HdSession::instance().open(hd_, name_, settings_.rate);
   if (!device) return tl::unexpected(device.error());
   device_ = *device;
-  return device_->info;
+  DeviceInfo info = device_->info;
+  // Of two alike people need to know which.
+  if (!name_.empty()) info.name += " (" + device_->address() + ")";
+  return info;
 }
 
 std::string OpenHapticsDriver::run(DriverLink& link, const std::atomic<bool>& stop) {
@@ -168,7 +181,7 @@ void OpenHapticsDriver::watch(HdExchange& exchange, DriverLink& link) {
   const std::int64_t now = base::steady_nanoseconds();
   if (now >= next_check_) {
     next_check_ = now + kCheckEvery;
-    exchange.check_calibration();
+    if (const auto state = exchange.calibration()) link.withhold(why_withheld(*state));
   }
   warnings_->tell(link, now);
 }

@@ -21,6 +21,7 @@ class OpenHapticsDriver final : public Driver {
   base::Result<DeviceInfo> open() override;
   std::string run(DriverLink& link, const std::atomic<bool>& stop) override;
   void close() override;
+  std::string identity() const override { return device_ ? device_->identity() : ""; }
 
  private:
   std::string be_driven(DriverLink& link, const std::atomic<bool>& stop);

@@ -102,7 +102,7 @@ base::Result<VrpnAddress> VrpnAddress::parse(std::string_view text) {
     const std::string wrong = vrpn::take_option(address, key, value);
     if (!wrong.empty()) return base::fail(wrong);
   }
-  address.info.name = address.name + "@" + address.host;
+  address.info.name = address.name + "@" + address.host + ":" + std::to_string(address.port);
   return address;
 }
 

@@ -57,9 +57,12 @@ void add_devices_of(const std::string& server, std::vector<DeviceEntry>& entries
   const std::set<std::string> trackers = heard_trackers(**link);
   const bool forces = (*link)->names().knows(vrpn::Kind::Plane);
   for (const std::string& name : trackers) {
+    VrpnAddress named = *address;
+    named.name = name;
     entries.push_back(entry(std::string(kVrpn) + ":" + name + "@" + place, true,
                             forces ? "a tracker of a VRPN server that takes forces; also for the head"
                                    : "a tracker of a VRPN server, without forces; also for the head"));
+    entries.back().identity = vrpn_identity(named);
   }
   if (trackers.empty()) {
     entries.push_back(

@@ -22,12 +22,15 @@ constexpr std::int32_t kRecovery = 1;
 
 /// The names of a server's devices, for people.
 std::string listed(const std::vector<std::string>& names) {
+  constexpr int kMostListed = 10;
   std::string text;
+  int count = 0;
   for (const std::string& name : names) {
     // The server itself goes by the first; a name that is not told yet is empty.
-    if (name.empty() || name == "VRPN Control") continue;
+    if (name.empty() || name == "VRPN Control" || ++count > kMostListed) continue;
     text += (text.empty() ? "" : ", ") + name;
   }
+  if (count > kMostListed) text += " and " + std::to_string(count - kMostListed) + " more";
   return text.empty() ? "none" : text;
 }
 
@@ -50,6 +53,13 @@ bool learn_names(ClientLink& link) {
 
 }  // namespace
 
+std::string vrpn_identity(const VrpnAddress& address) {
+  const auto place = vrpn::find_host(address.host, address.port);
+  std::string identity = "vrpn:" + address.name + "@";
+  identity += place ? vrpn::shown(*place) : address.host + ":" + std::to_string(address.port);
+  return address.sensor == 0 ? identity : identity + "?sensor=" + std::to_string(address.sensor);
+}
+
 std::string VrpnDriver::place() const { return address_.host + ":" + std::to_string(address_.port); }
 
 base::Result<DeviceInfo> VrpnDriver::open() {
@@ -60,8 +70,14 @@ base::Result<DeviceInfo> VrpnDriver::open() {
     return base::fail("the VRPN server at " + place() + " has no device '" + address_.name + "'; it has " +
                       listed((*link)->names().senders()));
   }
+  gives_force_ = address_.forces != VrpnForces::Off && (*link)->names().knows(force_kind());
+  // Places may be read by several; forces of two would fight. Kept while the server is away.
+  if (gives_force_ && !claim_) {
+    auto claim = DeviceClaim::of(identity());
+    if (!claim) return tl::unexpected(claim.error());
+    claim_ = std::move(*claim);
+  }
   link_ = std::move(*link);
-  gives_force_ = address_.forces != VrpnForces::Off && link_->names().knows(force_kind());
   if (gives_force_)
     link_->introduce({force_kind()});
   else

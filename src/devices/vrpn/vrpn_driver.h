@@ -4,12 +4,16 @@
 #include <string>
 #include <utility>
 
+#include "devices/driver/device_claim.h"
 #include "devices/driver/driver.h"
 #include "devices/vrpn/client_link.h"
 #include "devices/vrpn/tracker_readings.h"
 #include "devices/vrpn/vrpn_address.h"
 
 namespace icome::devices {
+
+/// Driver::identity() of the device of an address, wherever its server is by name. May take seconds.
+std::string vrpn_identity(const VrpnAddress& address);
 
 /// A device of a VRPN server: tracker, buttons, analog channel and force of one name.
 ///
@@ -28,6 +32,7 @@ class VrpnDriver final : public Driver {
   base::Result<DeviceInfo> open() override;
   std::string run(DriverLink& link, const std::atomic<bool>& stop) override;
   void close() override { link_.reset(); }
+  std::string identity() const override { return vrpn_identity(address_); }
 
  private:
   std::string place() const;
@@ -38,6 +43,7 @@ class VrpnDriver final : public Driver {
   vrpn::Payload force_payload(const Vector3& force) const;
 
   VrpnAddress address_;
+  DeviceClaim claim_;  // of the device, where forces are given, from the first open() on
   std::unique_ptr<vrpn::ClientLink> link_;
   bool gives_force_ = false;
   // Since run():

@@ -12,7 +12,8 @@ base::Result<PointerConnection> open_connection(const std::string& address) {
   if (!mapping) return tl::unexpected(mapping.error());
   auto device = devices::open_device(address, devices::DeviceMapping{});
   if (!device) return tl::unexpected(device.error());
-  return PointerConnection{address, std::move(*device), *mapping};
+  std::string identity = devices::identity_of(**device);
+  return PointerConnection{address, std::move(*device), *mapping, std::move(identity)};
 }
 
 }  // namespace icome::session

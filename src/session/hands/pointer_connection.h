@@ -13,6 +13,7 @@ struct PointerConnection {
   std::string address = {};                                  // by which it was opened, such as "haply:049D"
   std::unique_ptr<devices::PointerDevice> device = nullptr;  // in its own frame
   devices::DeviceMapping mapping = {};
+  std::string identity = {};  // devices::identity_of(device)
 };
 
 /// Opens a pointer device by its address, with the mapping of its profile file. May take seconds. Fails as

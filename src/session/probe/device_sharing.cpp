@@ -17,8 +17,8 @@ base::Result<std::unique_ptr<DeviceSharing>> DeviceSharing::create(
   std::unique_ptr<DeviceSharing> sharing(new DeviceSharing());
   for (auto& device : devices) {
     const devices::DeviceInfo info = device->info();
-    sharing->shared_.push_back(std::make_unique<Shared>(
-        Shared{std::move(device), haptics::ForceLimiter(info, {.max_rate = kFastestChange})}));
+    sharing->shared_.emplace_back(
+        new Shared{std::move(device), haptics::ForceLimiter(info, {.max_rate = kFastestChange})});
   }
   auto listening = devices::VrpnServer::create(server);
   if (!listening) return tl::unexpected(listening.error());
@@ -49,6 +49,7 @@ void DeviceSharing::share(std::size_t index, double dt) {
   const devices::DeviceStatus status = it.device->read(it.state);
   const bool fresh = status == devices::DeviceStatus::Ok;
   it.has_state = it.has_state || fresh;
+  it.is_lost.store(status == devices::DeviceStatus::Lost, std::memory_order_relaxed);
   base::Vector3 wanted = base::Vector3::Zero();
   if (it.has_state) wanted = server_->wanted_force(it.state, base::steady_nanoseconds(), index);
   const base::Vector3 force = it.limiter.limit(

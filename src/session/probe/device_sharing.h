@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ class DeviceSharing {
   const devices::VrpnServer& server() const { return *server_; }
   std::size_t devices() const { return shared_.size(); }
   const devices::PointerDevice& device(std::size_t index) const { return *shared_[index]->device; }
+  /// Was the device away in the newest tick? Any thread.
+  bool is_lost(std::size_t index) const { return shared_[index]->is_lost.load(std::memory_order_relaxed); }
 
  private:
   struct Shared {
@@ -33,6 +36,7 @@ class DeviceSharing {
     haptics::ForceLimiter limiter;
     devices::PointerState state = {};
     bool has_state = false;
+    std::atomic<bool> is_lost = false;
   };
   DeviceSharing() = default;
   bool tick(const realtime::TickInfo& info);

@@ -22,6 +22,9 @@ constexpr double kPushSeconds = 0.03;   // s that each lasts
 constexpr double kPauseSeconds = 0.4;   // s to come to rest after it
 constexpr double kLeastWay = 20e-6;     // m, by which a push is told from noise
 constexpr double kRate = 2000.0;        // N/s, the fastest that a force changes here
+// A hand that holds a device still stays within these, and so does a tracker that lies on a table.
+constexpr double kStillNoise = 0.002;  // m
+constexpr double kStillWay = 0.015;    // m
 
 /// The force along y (N) at a time since the forces began, for a test with this strongest one.
 double asked_force(double t, double strongest) {
@@ -162,7 +165,14 @@ void measure_noise(DeviceTestResult& result, double seconds) {
     t.push_back(tick.t);
     for (int axis = 0; axis < 3; ++axis) x[std::size_t(axis)].push_back(tick.position[axis]);
   }
-  for (int axis = 0; axis < 3; ++axis) result.noise[axis] = noise_about_line(t, x[std::size_t(axis)]);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::vector<double>& places = x[std::size_t(axis)];
+    result.noise[axis] = noise_about_line(t, places);
+    if (places.empty()) continue;
+    const auto [low, high] = std::minmax_element(places.begin(), places.end());
+    result.moved = std::max(result.moved, *high - *low);
+  }
+  result.was_still = result.noise.maxCoeff() <= kStillNoise && result.moved <= kStillWay;
 }
 
 /// A push: the tick in which it begins, and the device's place and speed before.
@@ -228,7 +238,7 @@ ForceTest measure_force(const DeviceTestResult& result, double seconds) {
     test.strongest = std::max(test.strongest, tick.force.norm());
     if (tick.fresh) test.moved = std::max(test.moved, (tick.position - rest).norm());
   }
-  test.delay = delay_of_pushes(result.ticks, result.noise.y());
+  if (result.was_still) test.delay = delay_of_pushes(result.ticks, result.noise.y());
   return test;
 }
 

@@ -43,6 +43,8 @@ struct DeviceTestResult {
   double rate_hz = 0.0;  // fresh readings a second, as far as the ticks can tell: no more than theirs
   ReadingIntervals interval_ms;
   Vector3 noise = Vector3::Zero();  // m, standard deviation at rest, slow drift taken out
+  double moved = 0.0;               // m, the farthest way along an axis at rest
+  bool was_still = true;            // at rest; else noise and delay tell nothing of the device
   std::uint64_t stalled = 0;        // ticks without a fresh reading
   std::uint64_t lost = 0;           // ticks in which the device was not there
   bool lost_at_end = false;         // it was not there in the last tick, which ended the test

@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -21,10 +22,14 @@ namespace {
 
 constexpr int kEvery = 200;  // ms, between two looks at the devices
 
-/// The index of the pointer with this address; nothing: none is connected by it.
-std::optional<std::size_t> connected_as(const session::Session& session, const std::string& address) {
-  for (std::size_t i = 0; i < session.hands().pointers(); ++i)
-    if (session.hands().use(i).address == address) return i;
+/// The index of the pointer whose device has this address or, however it was addressed, this identity;
+/// nothing: none is connected.
+std::optional<std::size_t> connected_as(const session::Session& session, const std::string& address,
+                                        const std::string& identity) {
+  for (std::size_t i = 0; i < session.hands().pointers(); ++i) {
+    const session::PointerUse use = session.hands().use(i);
+    if (use.address == address || (!identity.empty() && use.identity == identity)) return i;
+  }
   return std::nullopt;
 }
 
@@ -42,9 +47,10 @@ struct DevicePanel::Parts {
   void show_found(const std::vector<devices::DeviceEntry>& entries);
   void show_states();
   void show_pointers();
-  void open(const std::string& address);
-  void act_on(const std::string& address);
-  DeviceRow::State state_of(const std::string& address) const;
+  void open(const std::string& address, const std::string& identity);
+  void act_on(const std::string& address, const std::string& identity);
+  DeviceRow::State state_of(const std::string& address, const std::string& identity) const;
+  void complain(const QString& why);
 
   session::Session& session;
   DeviceSearch search;
@@ -57,6 +63,8 @@ struct DevicePanel::Parts {
   QLabel* status = nullptr;
   QPushButton* refresh = nullptr;
   QLineEdit* address = nullptr;
+  PanelNote* note = nullptr;      // on what is being opened
+  QScrollArea* scroll = nullptr;  // around the sheet
   std::vector<DeviceRow*> rows;
   QWidget* forms_box;
   std::vector<PointerForm*> forms;
@@ -121,9 +129,12 @@ void DevicePanel::Parts::build_address() {
   across->addWidget(address, 1);
   across->addWidget(button);
   found->add_wide(row);
+  // Here, as below the list nobody would see it.
+  note = new PanelNote(found->body());
+  found->add_wide(note);
   const auto connect_it = [this] {
     const std::string wanted = address->text().trimmed().toStdString();
-    if (!wanted.empty()) open(wanted);
+    if (!wanted.empty()) open(wanted, {});
   };
   QObject::connect(button, &QPushButton::clicked, row, connect_it);
   QObject::connect(address, &QLineEdit::returnPressed, row, connect_it);
@@ -151,7 +162,7 @@ void DevicePanel::Parts::take_found() {
   refresh->setEnabled(true);
   if (!*result) {
     status->setText("The search ended early.");
-    found->note().keep(QString::fromStdString(result->error().message));
+    complain(QString::fromStdString(result->error().message));
     return;
   }
   show_found(**result);
@@ -173,7 +184,7 @@ void DevicePanel::Parts::show_found(const std::vector<devices::DeviceEntry>& ent
   for (const devices::DeviceEntry& entry : entries) {
     QWidget* const box = entry.present ? found_rows : missing_rows;
     auto* row = new DeviceRow(
-        entry, [this, name = entry.name] { act_on(name); }, box);
+        entry, [this, name = entry.name, identity = entry.identity] { act_on(name, identity); }, box);
     box->layout()->addWidget(row);
     rows.push_back(row);
     present += entry.present ? 1 : 0;
@@ -183,39 +194,46 @@ void DevicePanel::Parts::show_found(const std::vector<devices::DeviceEntry>& ent
                                : QString("%1 devices are there.").arg(present));
 }
 
-DeviceRow::State DevicePanel::Parts::state_of(const std::string& of) const {
-  if (connected_as(session, of)) return DeviceRow::State::Connected;
+DeviceRow::State DevicePanel::Parts::state_of(const std::string& of, const std::string& identity) const {
+  if (connected_as(session, of, identity)) return DeviceRow::State::Connected;
   if (search.is_opening(of)) return DeviceRow::State::Opening;
-  if (session.hands().is_closing(of)) return DeviceRow::State::Closing;
+  if (session.hands().is_closing(of, identity)) return DeviceRow::State::Closing;
   return DeviceRow::State::Free;
 }
 
 void DevicePanel::Parts::show_states() {
-  for (DeviceRow* row : rows) row->show(state_of(row->address()));
+  for (DeviceRow* row : rows) row->show(state_of(row->address(), row->identity()));
 }
 
-void DevicePanel::Parts::act_on(const std::string& of) {
-  if (const auto index = connected_as(session, of)) {
+/// Says why something was refused, where it is seen.
+void DevicePanel::Parts::complain(const QString& why) {
+  note->keep(why);
+  // Once it has its place.
+  QTimer::singleShot(0, note, [this] { scroll->ensureWidgetVisible(note); });
+}
+
+void DevicePanel::Parts::act_on(const std::string& of, const std::string& identity) {
+  if (const auto index = connected_as(session, of, identity)) {
     (void)session.hands().disconnect(*index);  // it is no mouse's, which has no address
     show_states();
     show_pointers();
   } else {
-    open(of);
+    open(of, identity);
   }
 }
 
-void DevicePanel::Parts::open(const std::string& of) {
-  switch (state_of(of)) {
+void DevicePanel::Parts::open(const std::string& of, const std::string& identity) {
+  switch (state_of(of, identity)) {
     case DeviceRow::State::Connected:
-      return found->note().say(one_line(of) + " is connected already.");
+      return complain(one_line(of) + " is connected already.");
     case DeviceRow::State::Closing:
-      return found->note().say(one_line(of) + " is still being closed: try again in a moment.");
+      return complain(one_line(of) + " is still being closed: try again in a moment.");
     case DeviceRow::State::Opening:
       return;
     case DeviceRow::State::Free:
       break;
   }
-  found->note().remark("Opening " + one_line(of) + "\u2026");
+  note->remark("Opening " + one_line(of) + "\u2026");
   search.open(of);
   timer->start();
   show_states();
@@ -230,10 +248,10 @@ void DevicePanel::Parts::take_opened() {
       done = tl::unexpected(index.error());
     }
     if (!done) {
-      found->note().keep(QString("%1: %2").arg(one_line(it.address), one_line(done.error().message)));
+      complain(QString("%1: %2").arg(one_line(it.address), one_line(done.error().message)));
       continue;
     }
-    found->note().clear();
+    note->clear();
     if (address->text().trimmed().toStdString() == it.address) address->clear();
   }
 }
@@ -269,6 +287,7 @@ DevicePanel::DevicePanel(session::Session& session, DeviceWays ways, QWidget* pa
     : QWidget(parent), parts_(std::make_unique<Parts>(session, std::move(ways), *this)) {
   setAccessibleName("Devices");
   auto* scroll = new ColumnArea(this);
+  parts_->scroll = scroll;
   scroll->setWidget(parts_->sheet);
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);

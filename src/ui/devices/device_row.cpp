@@ -5,6 +5,7 @@
 
 #include "ui/look/theme.h"
 #include "ui/panels/object_look.h"
+#include "ui/panels/wrapped_label.h"
 
 namespace icome::ui {
 namespace {
@@ -26,7 +27,7 @@ QString words_about(const devices::DeviceEntry& entry) {
 }  // namespace
 
 DeviceRow::DeviceRow(const devices::DeviceEntry& entry, std::function<void()> act, QWidget* parent)
-    : QWidget(parent), address_(entry.name) {
+    : QWidget(parent), address_(entry.name), identity_(entry.identity) {
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, kGrid, 0, kGrid);
   grid->setHorizontalSpacing(2 * kGrid);
@@ -37,11 +38,8 @@ DeviceRow::DeviceRow(const devices::DeviceEntry& entry, std::function<void()> ac
   auto* title = new QLabel(name, this);
   title->setTextFormat(Qt::PlainText);
   title->setToolTip(QString("%1, %2").arg(one_line(entry.backend), family_words(entry)));
-  auto* about = new QLabel(words_about(entry), this);
-  about->setTextFormat(Qt::PlainText);
-  about->setWordWrap(true);
+  auto* about = new WrappedLabel(words_about(entry), this);
   about->setForegroundRole(QPalette::PlaceholderText);
-  about->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   grid->addWidget(title, 0, 0);
   grid->addWidget(about, 1, 0, 1, 2);
   if (!entry.present || entry.family != "pointer") return;

@@ -18,10 +18,13 @@ class DeviceRow final : public QWidget {
   DeviceRow(const devices::DeviceEntry& entry, std::function<void()> act, QWidget* parent);
 
   const std::string& address() const { return address_; }
+  /// devices::DeviceEntry::identity.
+  const std::string& identity() const { return identity_; }
   void show(State state);
 
  private:
   std::string address_;
+  std::string identity_;
   QPushButton* button_ = nullptr;  // null where there is nothing to connect
 };
 

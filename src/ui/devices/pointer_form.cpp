@@ -5,6 +5,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include "devices/device_news.h"
 #include "devices/mapping_file.h"
 #include "ui/look/theme.h"
 #include "ui/panels/object_look.h"
@@ -18,14 +19,23 @@ void show_text(QLabel& label, const QString& text) {
   if (label.text() != text) label.setText(text);
 }
 
-/// The state of a device in a sentence.
+/// The sentences that a device says of itself, one a line.
+QString sentences(const std::string& condition) {
+  QStringList lines;
+  for (const QString& line : QString::fromStdString(condition).split('\n', Qt::SkipEmptyParts)) {
+    const QString shown = one_line(line.toStdString());
+    lines << (shown.endsWith('.') ? shown : shown + ".");
+  }
+  return lines.join('\n');
+}
+
+/// The state of a device in words.
 QString condition_words(const session::PointerView& view, const session::PointerUse& use) {
-  const QString why = one_line(use.condition);
+  const QString why = sentences(use.condition);
   if (view.time == 0) return "It is being taken in.";
   if (view.status == devices::DeviceStatus::Lost)
     return why.isEmpty() ? QString("It does not answer; it is used again as soon as it does.") : why;
   if (!why.isEmpty()) return why;
-  if (view.status == devices::DeviceStatus::Stalled) return "It gives nothing new.";
   return use.clutched ? "The clutch is held: the hand is free." : "It is ready.";
 }
 
@@ -68,9 +78,8 @@ void PointerForm::add_live() {
     label->setAccessibleName(name);
     return label;
   };
-  condition_ = line("Condition");
-  condition_->setWordWrap(true);
-  condition_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  condition_ = new WrappedLabel({}, section_->body());
+  condition_->setAccessibleName("Condition");
   section_->add_wide(condition_);
   force_ = line("Force");
   place_ = line("Place");
@@ -150,10 +159,12 @@ void PointerForm::refresh() {
   const session::PointerView& view = session_.hands().pointer(*index);
   const session::PointerUse use = session_.hands().use(*index);
   const bool there = view.time != 0 && view.status != devices::DeviceStatus::Lost;
-  show_text(*condition_, condition_words(view, use));
+  condition_->say(condition_words(view, use));
+  // What the servo asks for goes nowhere while the device may not push.
+  const double force = devices::gives_no_force(use.condition) ? 0.0 : view.force.norm();
   const double most = session_.hands().pointer_info(*index).max_force;
-  show_text(*force_, there ? QString("%1 of %2 N").arg(view.force.norm(), 0, 'f', 2).arg(most, 0, 'f', 1)
-                           : QString("\u2013"));
+  show_text(*force_,
+            there ? QString("%1 of %2 N").arg(force, 0, 'f', 2).arg(most, 0, 'f', 1) : QString("\u2013"));
   show_text(*place_, there ? place_words(view) : QString("\u2013"));
   if (use.mapping) refresh_mapping(use);
 }

@@ -8,6 +8,7 @@
 #include "ui/forms/quantity_field.h"
 #include "ui/forms/quiet_combo_box.h"
 #include "ui/panels/panel_section.h"
+#include "ui/panels/wrapped_label.h"
 
 namespace icome::ui {
 
@@ -38,7 +39,7 @@ class PointerForm final : public QWidget {
   session::Session& session_;
   std::uint64_t number_;
   PanelSection* section_;
-  QLabel* condition_ = nullptr;
+  WrappedLabel* condition_ = nullptr;
   QLabel* force_ = nullptr;
   QLabel* place_ = nullptr;
   QuantityField* scale_ = nullptr;

@@ -18,6 +18,9 @@ std::string design_of(const session::RecoverableWork& work) {
   return work.design.filename().string();
 }
 
+/// All notes on one device share a topic: what it says now takes the place of what it said before.
+std::string device_topic(const SessionEvent& event) { return "device " + event.device; }
+
 /// "1 thing was", "2 things were".
 std::string counted(std::size_t count, const char* one, const char* many) {
   return count == 1 ? fmt::format(" 1 {}.", one) : fmt::format(" {} {}.", count, many);
@@ -103,11 +106,11 @@ Note note_of(const SessionEvent& event) {
       note.weight = Weight::Passing;
       break;
     case SessionEvent::Kind::DeviceLost:
-      note.topic = "device";
+      note.topic = device_topic(event);
       note.weight = Weight::Warning;
       break;
     case SessionEvent::Kind::DeviceBack:
-      note.topic = "device";
+      note.topic = device_topic(event);
       note.weight = Weight::Passing;
       break;
     case SessionEvent::Kind::NotAsItIs:
@@ -115,7 +118,7 @@ Note note_of(const SessionEvent& event) {
       note.weight = Weight::Plain;
       break;
     case SessionEvent::Kind::Notice:
-      note.topic = event.text;
+      note.topic = event.device.empty() ? event.text : device_topic(event);
       break;
   }
   return note;

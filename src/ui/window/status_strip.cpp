@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "charts/length_text.h"
+#include "devices/device_news.h"
 #include "ui/look/theme.h"
 #include "ui/panels/object_look.h"
 #include "ui/plots/force_plot.h"
@@ -21,7 +22,8 @@ using devices::DeviceStatus;
 
 namespace {
 
-constexpr int kEvery = 66;  // ms
+constexpr int kEvery = 66;        // ms
+constexpr int kStalledLooks = 8;  // in a row that are worth a word: half a second
 constexpr const char* kTouchedTip = "The object under the hand";
 
 /// A lamp that shows the state of the device.
@@ -73,24 +75,20 @@ void set(QLabel& label, const QString& text) {
   label.setAccessibleDescription(text);
 }
 
-QString words_of(DeviceStatus status) {
-  switch (status) {
-    case DeviceStatus::Ok:
-      return "ready";
-    case DeviceStatus::Stalled:
-      return "no news";
-    case DeviceStatus::Lost:
-      break;
-  }
-  return "lost";
+/// `others`: pointers beside it, but for the mouse's.
+QString words_of(DeviceStatus status, const std::string& condition, std::size_t others) {
+  if (status == DeviceStatus::Lost) return others > 0 ? "lost; the others go on" : "lost";
+  if (devices::gives_no_force(condition)) return "may not push";
+  return status == DeviceStatus::Stalled ? "no place for a while" : "ready";
 }
 
-QString explanation_of(DeviceStatus status) {
+QString explanation_of(DeviceStatus status, const std::string& condition) {
+  if (!condition.empty()) return one_line(devices::in_one_line(condition));
   switch (status) {
     case DeviceStatus::Ok:
       return "The pointer device gives its place at every tick.";
     case DeviceStatus::Stalled:
-      return "The pointer device is there, but has nothing new to say.";
+      return "The pointer device is there, but has not told its place for half a second.";
     case DeviceStatus::Lost:
       break;
   }
@@ -154,6 +152,7 @@ struct StatusStrip::Parts {
   QLabel* state = nullptr;
   QLabel* touched = nullptr;
   QLabel* capped = nullptr;
+  int stalled_looks = 0;  // in a row
   QLabel* rate = nullptr;
   QLabel* overruns = nullptr;
   QLabel* lateness = nullptr;
@@ -246,11 +245,18 @@ void StatusStrip::Parts::look_at_device() {
   const QString more =
       !session.hands().is_mouse_driven() && others > 0 ? QString(" + %1").arg(others) : QString();
   set(*device, device->fontMetrics().elidedText(name, Qt::ElideRight, 36 * kGrid) + more);
-  dot->show(view.status);
-  const bool spared = view.spared && view.status == DeviceStatus::Ok;
-  set(*state, spared ? QString("ready, force held down") : words_of(view.status));
-  state->setToolTip(spared ? sparing_words(session.hands().pointer_info(0)) : explanation_of(view.status));
-  dot->setToolTip(explanation_of(view.status));
+  // A slow device has nothing new at most ticks.
+  stalled_looks = view.status == DeviceStatus::Stalled ? stalled_looks + 1 : 0;
+  const bool is_slow = stalled_looks > 0 && stalled_looks < kStalledLooks;
+  const DeviceStatus status = is_slow ? DeviceStatus::Ok : view.status;
+  const std::string condition = session.hands().use(0).condition;
+  const bool held_back = status == DeviceStatus::Ok && devices::gives_no_force(condition);
+  dot->show(held_back ? DeviceStatus::Stalled : status);
+  const bool spared = view.spared && status == DeviceStatus::Ok && !held_back;
+  set(*state, spared ? QString("ready, force held down") : words_of(status, condition, others));
+  const QString explanation = explanation_of(status, condition);
+  state->setToolTip(spared ? sparing_words(session.hands().pointer_info(0)) : explanation);
+  dot->setToolTip(explanation);
   const auto object = view.touching ? session.hands().touched(0) : std::nullopt;
   const bool softer = object && view.stiffness < view.asked_stiffness;
   const QString what =

@@ -45,6 +45,18 @@ class DriverLinkTest : public testing::Test {
     return force;
   }
 
+  /// Likewise with a hand that keeps at a place, as still as hands are.
+  Vector3 held_force_after(int milliseconds, const Vector3& asked, double x = 0.0) {
+    Vector3 force = Vector3::Zero();
+    for (int i = 0; i < milliseconds; ++i) {
+      link.pass(reading_at(x + 1e-6 * (i % 2)), now + kMillisecond);
+      force = force_after(1, asked);
+    }
+    return force;
+  }
+
+  bool tells(const char* words) const { return link.condition().find(words) != std::string::npos; }
+
   DriverLink link{touch_like()};
   PointerState state;
   std::int64_t now = 1000 * kMillisecond;
@@ -163,8 +175,7 @@ TEST_F(DriverLinkTest, TheFirstForceIsNone) {
 
 TEST_F(DriverLinkTest, ForcesGrowFromNoneAfterAJumpThatLasts) {
   const Vector3 asked(0, 2, 0);
-  ASSERT_EQ(passed(reading_at(0.0)), DeviceStatus::Ok);
-  ASSERT_EQ(force_after(400, asked), asked);
+  ASSERT_EQ(held_force_after(400, asked), asked);
   ASSERT_EQ(passed(reading_at(0.0)), DeviceStatus::Ok);
   // A spike changes nothing.
   ASSERT_EQ(passed(reading_at(0.1)), DeviceStatus::Stalled);
@@ -173,7 +184,7 @@ TEST_F(DriverLinkTest, ForcesGrowFromNoneAfterAJumpThatLasts) {
   for (int i = 0; i < 3; ++i) ASSERT_EQ(passed(reading_at(0.1)), DeviceStatus::Stalled);
   ASSERT_EQ(passed(reading_at(0.1)), DeviceStatus::Ok);
   EXPECT_LT(force_after(1, asked).norm(), 0.1) << "a blow at the new place";
-  EXPECT_EQ(force_after(400, asked), asked);
+  EXPECT_EQ(held_force_after(400, asked, 0.1), asked);
 }
 
 TEST_F(DriverLinkTest, ReadsNothingOfTheConnectionBefore) {
@@ -204,6 +215,80 @@ TEST_F(DriverLinkTest, TakesAForceAwayThatIsTooOld) {
   EXPECT_EQ(link.counts().watchdog_stops, 1u);
   now += 12 * kMillisecond;
   EXPECT_LT(force_after(1, asked).norm(), 0.1) << "a blow instead of a ramp";
+}
+
+TEST_F(DriverLinkTest, GivesNoForceWhileItIsWithheldAndThenARamp) {
+  const Vector3 asked(0, 2, 0);
+  ASSERT_EQ(held_force_after(400, asked), asked);
+  link.withhold("it has no power; plug it in");
+  EXPECT_EQ(held_force_after(1, asked), Vector3::Zero()) << "at once";
+  EXPECT_EQ(link.condition(), "No force: it has no power; plug it in");
+  EXPECT_EQ(held_force_after(400, asked), Vector3::Zero());
+  link.withhold("it is not calibrated");
+  EXPECT_EQ(link.condition(), "No force: it is not calibrated");
+  link.withhold({});
+  EXPECT_LT(held_force_after(1, asked).norm(), 0.1) << "a blow instead of a ramp";
+  EXPECT_EQ(link.condition(), "It gives forces again, which grow from none");
+  EXPECT_EQ(held_force_after(400, asked), asked);
+  EXPECT_EQ(link.counts().watchdog_stops, 0u);
+}
+
+TEST_F(DriverLinkTest, WhatIsWithheldEndsWithTheConnection) {
+  link.withhold("it has no power");
+  link.disconnect("It was unplugged.");
+  EXPECT_EQ(link.condition(), "It was unplugged.");
+  link.connect(touch_like());
+  EXPECT_EQ(link.condition(), "");
+  EXPECT_EQ(held_force_after(400, {0, 2, 0}), Vector3(0, 2, 0));
+}
+
+TEST_F(DriverLinkTest, GivesNoForceWithoutReadings) {
+  const Vector3 asked(0, 2, 0);
+  ASSERT_EQ(held_force_after(400, asked), asked);
+  EXPECT_EQ(force_after(90, asked), asked);
+  EXPECT_EQ(force_after(20, asked), Vector3::Zero()) << "nobody knows where the hand is";
+  EXPECT_EQ(link.condition(), "") << "that comes and goes";
+  EXPECT_EQ(force_after(1000, asked), Vector3::Zero());
+  EXPECT_TRUE(tells("No force: it tells nothing new of its place")) << link.condition();
+  EXPECT_LT(held_force_after(1, asked).norm(), 0.1) << "a blow instead of a ramp";
+  EXPECT_TRUE(tells("It gives forces again")) << link.condition();
+  EXPECT_EQ(held_force_after(400, asked), asked);
+}
+
+TEST_F(DriverLinkTest, GivesNoForceWhereReadingsStandStill) {
+  const Vector3 asked(0, 2, 0);
+  const auto frozen = [&](int milliseconds, const Vector3& force) {
+    Vector3 given = Vector3::Zero();
+    for (int i = 0; i < milliseconds; ++i) {
+      link.pass(reading_at(0.01), now + kMillisecond);
+      given = force_after(1, force);
+    }
+    return given;
+  };
+  frozen(5000, Vector3::Zero());
+  EXPECT_EQ(link.condition(), "") << "a device that lies on the table";
+  EXPECT_EQ(frozen(900, asked), asked);
+  EXPECT_EQ(frozen(300, asked), Vector3::Zero());
+  EXPECT_TRUE(tells("No force: what it tells of its place stays the same")) << link.condition();
+  EXPECT_EQ(frozen(3000, asked), Vector3::Zero()) << "it would push again into the unknown";
+  EXPECT_LT(held_force_after(1, asked, 0.011).norm(), 0.1);
+  EXPECT_EQ(held_force_after(400, asked, 0.011), asked);
+  link.may_keep_still();
+  frozen(400, asked);
+  EXPECT_EQ(frozen(3000, asked), asked) << "a gamepad";
+}
+
+TEST_F(DriverLinkTest, TellsWhereManyReadingsAreRefused) {
+  for (int i = 0; i < 3000; ++i) passed(reading_at(i % 500 == 0 ? kNoNumber : 0.0));
+  EXPECT_EQ(link.condition(), "") << "now and then one";
+  for (int i = 0; i < 2100; ++i) passed(reading_at(i % 2 == 0 ? 0.09 : 0.0));
+  EXPECT_TRUE(tells("Some of its readings make no sense and are left out (times so far: 105"))
+      << link.condition();
+  for (int i = 0; i < 7000; ++i) passed(reading_at(0.0));
+  EXPECT_EQ(link.condition(), "") << "it is over";
+  for (int i = 0; i < 2100; ++i)
+    i % 2 == 0 ? link.leave_out(now += kMillisecond) : (void)passed(reading_at(0.0));
+  EXPECT_TRUE(tells("make no sense")) << "those that the driver refused count as well";
 }
 
 TEST_F(DriverLinkTest, NeverLetsNonsensePassWhateverComes) {

@@ -70,8 +70,12 @@ TEST(SharedLibrary, FileThatIsNoLibraryIsToldAsSuch) {
   const auto library = SharedLibrary::open(sought(kMathematics));
   std::filesystem::remove(path);
   ASSERT_FALSE(library);
-  EXPECT_NE(library.error().message.find("is there, but cannot be loaded"), std::string::npos)
-      << library.error().message;
+  const std::string& why = library.error().message;
+  EXPECT_EQ(why.find("ICOME_TEST_LIBRARY is set to " + path +
+                     ", which cannot be loaded as the library of Somebody"),
+            0u)
+      << why;
+  EXPECT_TRUE(why.ends_with("correct or unset it")) << why;
 }
 
 }  // namespace

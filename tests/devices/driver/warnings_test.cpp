@@ -13,6 +13,7 @@ constexpr std::int64_t kStart = 1'000'000'000;  // ns
 
 TEST(DriverWarnings, AreToldWhileTheyLast) {
   DriverLink link(DeviceInfo{});
+  link.connect(DeviceInfo{});
   Warnings warnings(kSentences);
   warnings.tell(link, kStart);
   EXPECT_EQ(link.condition(), "");
@@ -21,7 +22,7 @@ TEST(DriverWarnings, AreToldWhileTheyLast) {
   EXPECT_EQ(link.condition(), "It is loud");
   warnings.note(0, kStart + Warnings::kLasting / 2);
   warnings.tell(link, kStart + Warnings::kLasting / 2);
-  EXPECT_EQ(link.condition(), "It is hot. It is loud");
+  EXPECT_EQ(link.condition(), "It is hot\nIt is loud");
   warnings.tell(link, kStart + Warnings::kLasting);
   EXPECT_EQ(link.condition(), "It is hot");
   warnings.tell(link, kStart + 2 * Warnings::kLasting);
@@ -30,6 +31,7 @@ TEST(DriverWarnings, AreToldWhileTheyLast) {
 
 TEST(DriverWarnings, AreCounted) {
   DriverLink link(DeviceInfo{});
+  link.connect(DeviceInfo{});
   Warnings warnings(kSentences);
   warnings.note(2, kStart);
   warnings.tell(link, kStart);
@@ -46,6 +48,7 @@ TEST(DriverWarnings, AreCounted) {
 
 TEST(DriverWarnings, NoteOfAnyThreadCounts) {
   DriverLink link(DeviceInfo{});
+  link.connect(DeviceInfo{});
   Warnings warnings(kSentences);
   const auto note_often = [&] {
     for (int i = 0; i < 10'000; ++i) warnings.note(2, kStart);
@@ -59,6 +62,7 @@ TEST(DriverWarnings, NoteOfAnyThreadCounts) {
 
 TEST(DriverWarnings, OthersSentencesStayUntilThereIsAnother) {
   DriverLink link(DeviceInfo{});
+  link.connect(DeviceInfo{});
   Warnings warnings(kSentences);
   link.tell("Something else");
   warnings.tell(link, kStart);
@@ -67,6 +71,7 @@ TEST(DriverWarnings, OthersSentencesStayUntilThereIsAnother) {
 
 TEST(DriverWarnings, AreToldAgainOnceForgotten) {
   DriverLink link(DeviceInfo{});
+  link.connect(DeviceInfo{});
   Warnings warnings(kSentences);
   warnings.note(0, kStart);
   warnings.tell(link, kStart);

@@ -188,7 +188,11 @@ class FakeUnit {
 
   Sample take(double& wait) {
     ++counted_;
-    if (is_posed_) return pose_;
+    if (is_posed_) {
+      Sample pose = pose_;
+      pose.position.x() += counted_ % 2 == 0 ? 1e-15 : 0.0;  // no hand is quite still
+      return pose;
+    }
     if (settings_.dropouts > 0.0 && share() < settings_.dropouts) return last_;
     const double now = time();
     if (settings_.circle > 0.0) {

@@ -226,12 +226,14 @@ TEST_F(ForceDimension, EachDeviceIsOpenOnce) {
     return state.position.isApprox(Vector3(0.03, 0.0, 0.0), 1e-12) && unit(1).held().norm() > 1.9;
   }));
   EXPECT_EQ(unit(0).strongest(), 0.0);
-  EXPECT_NE(failure_to_open().find("another part of the program has it"), std::string::npos);
-  EXPECT_NE(failure_to_open("1").find("another part of the program has it"), std::string::npos);
+  EXPECT_EQ(failure_to_open(), "dhd:0 is in use by this program already; disconnect it there first");
+  EXPECT_EQ(failure_to_open("1"), "dhd:1 is in use by this program already; disconnect it there first");
   const auto entries = kForceDimension.list();
   ASSERT_EQ(entries.size(), 2U);
   EXPECT_EQ(entries[1].name, "dhd:1");
   EXPECT_EQ(entries[1].why, "omega.7 (fake)");
+  EXPECT_EQ(entries[1].identity, "dhd:1");
+  EXPECT_EQ(second->info().name, "omega.7 (fake) (dhd:1)") << "people need to know which";
   EXPECT_TRUE(entries[1].present);
 }
 

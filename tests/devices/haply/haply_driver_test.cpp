@@ -30,7 +30,7 @@ TEST(HaplyDriver, KnownPoses) {
   FakeInverseService fake;
   const auto device = haply_at(fake);
   ASSERT_TRUE(device);
-  EXPECT_EQ(device->info().name, "Haply Inverse3");
+  EXPECT_EQ(device->info().name, "Haply Inverse3 049D") << "of two people need to know which";
   EXPECT_EQ(device->info().max_force, 5.0);
   const Vector3 middle = HaplySettings().middle;
   struct Pose {
@@ -254,7 +254,7 @@ TEST(HaplyFailures, AFewAnswersThatMakeNoSenseAreLeftOut) {
   const auto device = haply_at(fake);
   ASSERT_TRUE(device);
   fake.fail(ArmFault::NotANumber);
-  EXPECT_TRUE(haply_tells_soon(*device, "makes no sense and is left out"));
+  EXPECT_TRUE(haply_tells_soon(*device, "make no sense and are left out"));
   EXPECT_TRUE(holds_soon([&] {
     PointerState state;
     return device->read(state) == DeviceStatus::Stalled;
@@ -392,17 +392,95 @@ TEST(HaplyFailures, LeavingDoesNotWaitForAConnectionThatIsTried) {
   EXPECT_LT(base::steady_nanoseconds() - begin, 20'000'000'000);
 }
 
-TEST(HaplyDriver, WhatTheDeviceLacksIsTold) {
+/// Waits until the device says so and gives no force, while one is asked for.
+bool haply_withholds_soon(FakeInverseService& fake, DrivenDevice& device, const std::string& words) {
+  PointerState state;
+  return holds_soon([&] {
+    device.read(state);
+    device.write({0, 1, 0});
+    return device.condition().find("No force: " + words) != std::string::npos && fake.commanded().isZero(0.0);
+  });
+}
+
+/// Does it push again, from none?
+void expect_haply_ramp(FakeInverseService& fake, DrivenDevice& device) {
+  EXPECT_TRUE(haply_holds_until(device, {0, 1, 0}, [&] { return fake.commanded().norm() > 0.9; }))
+      << device.condition();
+  EXPECT_LT(fake.marks().steepest, 0.1) << "N, a blow instead of a ramp";
+}
+
+TEST(HaplyDriver, WithoutWhatItNeedsItGivesNoForce) {
   FakeInverseService fake;
   const auto device = haply_at(fake);
   ASSERT_TRUE(device);
-  fake.set_status(false, true, true);
-  EXPECT_TRUE(haply_tells_soon(*device, "Haply Inverse3 049D: it is not calibrated"));
-  fake.set_status(true, false, false);
-  EXPECT_TRUE(haply_tells_soon(
-      *device, "it has no power; plug in its power supply. Haply Inverse3 049D: it is not ready"));
-  fake.set_status(true, true, true);
+  struct Lack {
+    bool calibrated, powered, ready;
+    const char* words;
+  };
+  for (const Lack& lack : {Lack{false, true, true, "it is not calibrated"},
+                           Lack{true, false, false, "it has no power; plug in its power supply"},
+                           Lack{true, true, false, "it is not ready yet"}}) {
+    SCOPED_TRACE(lack.words);
+    ASSERT_TRUE(haply_holds_until(*device, {0, 1, 0}, [&] { return fake.commanded().norm() > 0.9; }));
+    fake.set_status(lack.calibrated, lack.powered, lack.ready);
+    EXPECT_TRUE(haply_withholds_soon(fake, *device, lack.words)) << device->condition();
+    fake.watch();
+    fake.set_status(true, true, true);
+    expect_haply_ramp(fake, *device);
+  }
   EXPECT_TRUE(holds_soon([&] { return device->condition().empty(); })) << device->condition();
+}
+
+void say_haply_event(FakeInverseService& fake, const char* name, const char* level, const char* message) {
+  fake.say_event(std::string("{\"name\":\"") + name + R"(","category":"device","level":")" + level +
+                 R"(","data":{"device_family":"inverse","device_id":"049D"},"message":")" + message + "\"}");
+}
+
+TEST(HaplyDriver, ASafetyStopLastsUntilItIsOver) {
+  FakeInverseService fake;
+  const auto device = haply_at(fake);
+  ASSERT_TRUE(device);
+  const char* const stopped = "its safety stop has been triggered (\"stall\")";
+  // The channel is open at some time; until then nobody hears.
+  PointerState state;
+  EXPECT_TRUE(holds_soon([&] {
+    say_haply_event(fake, "device-safety-triggered", "warning", "stall");
+    device->read(state);
+    device->write({0, 1, 0});
+    return device->condition().find(stopped) != std::string::npos && fake.commanded().isZero(0.0);
+  })) << device->condition();
+  say_haply_event(fake, "device-battery-low", "warning", "more news");
+  EXPECT_TRUE(haply_withholds_soon(fake, *device, stopped)) << "other news do not end it";
+  fake.watch();
+  say_haply_event(fake, "device-safety-triggered", "info", "over");
+  expect_haply_ramp(fake, *device);
+  say_haply_event(fake, "device-safety-triggered", "error", "stall");
+  EXPECT_TRUE(haply_withholds_soon(fake, *device, stopped));
+  fake.set_status(true, false, true);
+  const std::uint64_t before = fake.messages();
+  EXPECT_TRUE(holds_soon([&] { return fake.messages() > before + 50; })) << "it has heard of that";
+  EXPECT_TRUE(haply_withholds_soon(fake, *device, stopped));
+  fake.watch();
+  fake.set_status(true, true, true);
+  expect_haply_ramp(fake, *device);
+}
+
+TEST(HaplyDriver, OneIsNeverOpenedTwice) {
+  FakeServiceSettings two;
+  two.devices = {"049D", "0555"};
+  FakeInverseService fake(two);
+  const auto first = haply_at(fake);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->identity(), "haply:049D");
+  const auto again = open_haply_at(settings_for(fake), "049d");
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().message, "haply:049D is in use by this program already; disconnect it there first");
+  auto second = open_haply_at(settings_for(fake));
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_EQ((*second)->identity(), "haply:0555") << "the first that is free";
+  EXPECT_FALSE(open_haply_at(settings_for(fake)));
+  second->reset();
+  EXPECT_TRUE(open_haply_at(settings_for(fake), "0555")) << "it is free again";
 }
 
 TEST(HaplyDriver, EventsAreTold) {
@@ -426,10 +504,10 @@ TEST(HaplyDriver, EventsAreTold) {
   EXPECT_TRUE(holds_soon([&] { return device->condition().empty(); })) << device->condition();
   say("device-battery-low", "warning", R"({"device_family":"wireless_verse_grip","device_id":"8A21"})",
       "battery at 5 %");
-  EXPECT_TRUE(haply_tells_soon(*device, "a VerseGrip: \"battery at 5 %\""));
+  EXPECT_TRUE(haply_tells_soon(*device, "A VerseGrip: \"battery at 5 %\""));
   // An event says that the device is disconnected, but the service still lists it.
   say("device-disconnected", "warning", ours, "");
-  EXPECT_TRUE(haply_tells_soon(*device, "it is disconnected"));
+  EXPECT_TRUE(holds_soon([&] { return device->condition().empty(); })) << device->condition();
   EXPECT_TRUE(haply_reads_soon(*device));
 }
 
@@ -550,6 +628,7 @@ TEST_F(HaplyEnvironment, DevicesAreListedAndOpened) {
   EXPECT_TRUE(entries[0].present);
   EXPECT_EQ(entries[0].why, "Haply Inverse3 with VerseGrip 8A21, Inverse Service 3.5.0-fake");
   EXPECT_EQ(entries[1].name, "haply:0555");
+  EXPECT_EQ(entries[1].identity, "haply:0555");
   EXPECT_TRUE(back_end.open(""));
   EXPECT_TRUE(back_end.open("0555"));
   EXPECT_FALSE(back_end.open("0556"));

@@ -133,6 +133,7 @@ TEST_P(TwoOpenHaptics, ByName) {
   FakeUnit::Sample pose;
   pose.position = {0.03, 0.0, 0.0};
   unit(1).pose(pose);
+  ASSERT_TRUE(kOpenHaptics.list()[0].present);
   auto left = opened("Left");
   const auto right = opened("Right");
   ASSERT_TRUE(left && right);
@@ -140,7 +141,10 @@ TEST_P(TwoOpenHaptics, ByName) {
     return state.position.isApprox(Vector3(0.03, 0.0, 0.0), 1e-12) && unit(1).held().norm() > 1.9;
   }));
   EXPECT_EQ(unit(0).strongest(), 0.0);
-  EXPECT_NE(failure_to_open("Right").find("another part of the program has this"), std::string::npos);
+  EXPECT_EQ(failure_to_open("Right"),
+            "hd:Right is in use by this program already; disconnect it there first");
+  EXPECT_EQ(failure_to_open(""), "hd:Left is in use by this program already; disconnect it there first")
+      << "the default one, seen as such before";
   left.reset();
   EXPECT_TRUE(fake_->scheduler_runs) << "the other one needs it";
   EXPECT_TRUE(held_until(*right, {0.0, -2.0, 0.0}, [&](const auto&) { return unit(1).held().y() < -1.9; }));
@@ -193,15 +197,40 @@ TEST_P(OpenHaptics, WarningsAreCountedAndTold) {
   EXPECT_TRUE(holds_soon([&] { return device->condition().empty(); })) << "it is over";
 }
 
-TEST_P(OpenHaptics, CalibrationIsTold) {
-  fake_->calibration = 0x5002;
+TEST_P(OpenHaptics, WithoutCalibrationThereIsNoForce) {
   const auto device = suite::driven(driver(GetParam()));
   ASSERT_TRUE(device);
-  EXPECT_TRUE(holds_soon([&] { return device->condition().find("inkwell") != std::string::npos; }));
-  fake_->calibration = 0x5001;
-  EXPECT_TRUE(holds_soon([&] { return device->condition().find("setup program") != std::string::npos; }));
-  fake_->calibration = 0x5000;
-  EXPECT_TRUE(holds_soon([&] { return device->condition().empty(); }));
+  struct Lack {
+    unsigned state;
+    const char* words;
+  };
+  for (const Lack& lack : {Lack{0x5002, "No force: it is not calibrated; put the stylus into the inkwell"},
+                           Lack{0x5001, "No force: it wants to be calibrated; run the setup program"}}) {
+    ASSERT_TRUE(
+        held_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return unit().held().norm() > 0.9; }));
+    fake_->calibration = lack.state;
+    EXPECT_TRUE(held_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) {
+      return device->condition().find(lack.words) != std::string::npos && unit().held().norm() == 0.0;
+    })) << device->condition();
+    unit().watch();
+    fake_->calibration = 0x5000;
+    ASSERT_TRUE(
+        held_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return unit().held().norm() > 0.9; }));
+    EXPECT_LT(unit().marks().steepest, 0.1) << "N, a blow instead of a ramp";
+  }
+  EXPECT_TRUE(holds_soon([&] { return device->condition().empty(); })) << device->condition();
+}
+
+TEST_F(OpenHapticsFake, ADeviceByTwoNamesIsOpenedOnce) {
+  const EnvironmentValue names("ICOME_HD_NAMES", "Left");
+  const auto before = kOpenHaptics.list();
+  ASSERT_EQ(before.size(), 2u);
+  EXPECT_EQ(before[0].identity, before[1].identity);
+  const auto device = suite::driven(driver(Mode::Drives));
+  ASSERT_TRUE(device);
+  EXPECT_EQ(device->identity(), before[1].identity);
+  EXPECT_EQ(failure_to_open("Left"), "hd is in use by this program already; disconnect it there first");
+  EXPECT_TRUE(kOpenHaptics.list()[1].present);
 }
 
 TEST_P(OpenHaptics, FailuresAreSentences) {
@@ -379,7 +408,9 @@ TEST_F(OpenHapticsFake, NoDeviceIsASentence) {
   unit().plug(false);
   EXPECT_EQ(failure_to_open(),
             "no PHANToM or Touch answers (communication error); plug it in, switch it on, and try the test "
-            "program of its driver");
+            "program of its driver; where only root may use a Touch, put this udev rule into "
+            "/etc/udev/rules.d/70-icome-hd.rules and plug the device in again: SUBSYSTEMS==\"usb\", "
+            "ATTRS{idVendor}==\"2988\", TAG+=\"uaccess\"");
   EXPECT_NE(failure_to_open("Middle").find("answers by the name of Middle (invalid value)"),
             std::string::npos);
   EXPECT_FALSE(kOpenHaptics.list()[0].present);

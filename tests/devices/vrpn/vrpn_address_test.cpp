@@ -11,7 +11,7 @@ TEST(VrpnAddress, NameHostAndPort) {
   EXPECT_EQ(address->name, "Phantom");
   EXPECT_EQ(address->host, "lab.example");
   EXPECT_EQ(address->port, 4000);
-  EXPECT_EQ(address->info.name, "Phantom@lab.example");
+  EXPECT_EQ(address->info.name, "Phantom@lab.example:" + std::to_string(address->port));
   address = VrpnAddress::parse("Tracker1@host");
   ASSERT_TRUE(address);
   EXPECT_EQ(address->port, 3883);
@@ -29,7 +29,7 @@ TEST(VrpnAddress, Options) {
       "P@h?profile=touch&axes=x,z,-y&scale=0.001&sensor=2&grip=0&forces=fields&unit=1&radius=0.2");
   ASSERT_TRUE(address) << address.error().message;
   EXPECT_EQ(address->info.max_force, 3.3);
-  EXPECT_EQ(address->info.name, "P@h");
+  EXPECT_EQ(address->info.name, "P@h:3883");
   EXPECT_EQ(address->info.workspace_radius, 0.2);
   EXPECT_EQ(address->frame.position({1, 2, 3}), Vector3(0.001, 0.003, -0.002));
   EXPECT_EQ(address->sensor, 2);

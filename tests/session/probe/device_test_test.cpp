@@ -64,6 +64,24 @@ TEST(DeviceTest, MeasuresNoiseAtRest) {
   EXPECT_GE(result->interval_ms.p99, result->interval_ms.median);
 }
 
+TEST(DeviceTest, ADeviceThatIsLedAboutTellsNoNoiseAndNoDelay) {
+  devices::SimulatedSettings settings;
+  settings.trajectory = [](double t) -> Vector3 {
+    return {0.03 * std::cos(2.0 * M_PI * t), 0.03 * std::sin(2.0 * M_PI * t), 0.0};
+  };
+  devices::SimulatedDevice moving(std::move(settings));
+  const auto led = test_device(moving, {.seconds = 0.5, .force = 0.5}, on);
+  ASSERT_TRUE(led && led->force);
+  EXPECT_FALSE(led->was_still);
+  EXPECT_GT(led->moved, 0.02);
+  EXPECT_FALSE(led->force->delay);
+  LateMass device(0.0, 30e-6);
+  const auto held = test_device(device, {.seconds = 0.5}, on);
+  ASSERT_TRUE(held);
+  EXPECT_TRUE(held->was_still);
+  EXPECT_LT(held->moved, 1e-3);
+}
+
 // The machine may hold the loop up at any time, so only much more delay than there is would be wrong.
 TEST(DeviceTest, TellsALateDeviceFromAQuickOne) {
   LateMass quick(0.0, 0.0);

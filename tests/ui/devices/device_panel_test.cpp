@@ -13,6 +13,7 @@
 #include "ui/desktop_test.h"
 #include "ui/devices/device_row.h"
 #include "ui/devices/pointer_form.h"
+#include "ui/panels/wrapped_label.h"
 #include "ui/window_test.h"
 
 namespace icome::ui {
@@ -33,16 +34,21 @@ struct FakeWays {
     DeviceWays ways;
     ways.list = [searches = searches]() -> std::vector<devices::DeviceEntry> {
       ++*searches;
-      return {{"fake:1", "pointer", "fake", true, "an arm of a test"},
-              {"hd", "pointer", "openhaptics", false, "libHD.so is missing: install OpenHaptics"},
-              {"spacemouse", "navigation", "spacemouse", true, "a 3D mouse"}};
+      return {
+          {"fake:1", "pointer", "fake", true, "an arm of a test", "fake#1"},
+          {"hd", "pointer", "openhaptics", false,
+           "libHD.so is missing: install OpenHaptics, and then the maker's driver for the device, and see "
+           "that its test program finds the device; after that look again"},
+          {"spacemouse", "navigation", "spacemouse", true, "a 3D mouse"}};
     };
     ways.open = [may = may_open](const std::string& address) -> base::Result<session::PointerConnection> {
       while (!may->load()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       if (address == "broken") return base::fail("it answers to nobody");
       auto mapping = devices::read_mapping(address);
       if (!mapping) return tl::unexpected(mapping.error());
-      return session::PointerConnection{address, simulated("Fake Arm"), *mapping};
+      // The first device of a back-end may be addressed without saying which.
+      const std::string identity = address.starts_with("fake") ? "fake#1" : "";
+      return session::PointerConnection{address, simulated("Fake Arm"), *mapping, identity};
     };
     return ways;
   }
@@ -137,6 +143,25 @@ TEST_F(DevicePanelTest, ListsWhatIsThereAndSaysWhyTheRestIsNot) {
   EXPECT_EQ(all_in<DeviceRow>(*panel_).size(), 3U);
 }
 
+TEST_F(DevicePanelTest, WordsAreNotCutOff) {
+  ASSERT_TRUE(until([&] { return says("libHD.so is missing"); }));
+  ASSERT_TRUE(until([&] {
+    for (const WrappedLabel* it : all_in<WrappedLabel>(*panel_))
+      if (it->isVisibleTo(panel_.get()) && it->height() < it->heightForWidth(it->width())) return false;
+    return true;
+  }));
+}
+
+TEST_F(DevicePanelTest, ADeviceIsKnownHoweverItWasAddressed) {
+  ASSERT_TRUE(until([&] { return named<QPushButton>("Connect fake:1"); }));
+  named<QLineEdit>("Address of a device")->setText("fake");
+  named<QPushButton>("Connect this address")->click();
+  ASSERT_TRUE(until([&] { return form() && named<QPushButton>("Disconnect fake:1"); }));
+  named<QPushButton>("Disconnect fake:1")->click();
+  EXPECT_EQ(session().hands().pointers(), 1U);
+  ASSERT_TRUE(until([&] { return !form() && named<QPushButton>("Connect fake:1"); }));
+}
+
 TEST_F(DevicePanelTest, ConnectsAndDisconnectsWhileTheWindowGoesOn) {
   ASSERT_TRUE(until([&] { return named<QPushButton>("Connect fake:1"); }));
   *fake_.may_open = false;
@@ -167,6 +192,12 @@ TEST_F(DevicePanelTest, OpensAnAddressThatIsNotListedAndTellsWhyItCannot) {
   address->setText("broken");
   named<QPushButton>("Connect this address")->click();
   ASSERT_TRUE(until([&] { return says("broken: it answers to nobody"); }));
+  const auto y_of = [&](const QWidget* it) { return it->mapTo(panel_.get(), QPoint(0, 0)).y(); };
+  for (const PanelNote* note : all_in<PanelNote>(*panel_)) {
+    if (note->text().contains("broken")) {
+      EXPECT_LT(y_of(note), y_of(address) + 100) << "below the list nobody sees it";
+    }
+  }
   EXPECT_EQ(session().hands().pointers(), 1U);
   address->setText("vrpn:Tracker0@host");
   QTest::keyClick(address, Qt::Key_Return);

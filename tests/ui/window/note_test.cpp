@@ -50,6 +50,10 @@ TEST(Note, CountsRemarksAndStaysForThem) {
 
 TEST(Note, OfOneTopicFollowsAnother) {
   EXPECT_EQ(note_of({.kind = Kind::DeviceLost, .text = ""}).topic, note_of({.kind = Kind::DeviceBack}).topic);
+  const Note lost = note_of({.kind = Kind::DeviceLost, .text = "", .device = "left"});
+  EXPECT_EQ(note_of({.kind = Kind::DeviceBack, .device = "left"}).topic, lost.topic);
+  EXPECT_EQ(note_of({.kind = Kind::Notice, .text = "It is hot", .device = "left"}).topic, lost.topic);
+  EXPECT_NE(note_of({.kind = Kind::DeviceLost, .device = "right"}).topic, lost.topic);
   EXPECT_EQ(note_of({.kind = Kind::AutosaveFailed}).topic, note_of({.kind = Kind::AutosaveResumed}).topic);
   EXPECT_NE(note_of({.kind = Kind::Notice, .text = "a"}).topic,
             note_of({.kind = Kind::Notice, .text = "b"}).topic);
