@@ -1,0 +1,160 @@
+// A server on its threads and clients beside it, over TLS.
+#include "collab/server/design_server.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <thread>
+
+#include "collab/client/connection.h"
+#include "collab/client/integration.h"
+#include "collab/protocol/address.h"
+#include "collab/storage/sqlite_op_log.h"
+#include "collab/storage/store_folder.h"
+#include "world/sample_world.h"
+
+namespace icome::collab {
+namespace {
+
+constexpr std::chrono::milliseconds kPatient{60'000};
+
+/// A server in a folder of its own, with one design, on a thread.
+class DesignServerTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("icome_server_") + test->name());
+    std::filesystem::remove_all(folder_);
+    start({});
+  }
+  void TearDown() override {
+    stop();
+    std::filesystem::remove_all(folder_);
+  }
+
+  void start(const Endpoint& listen) {
+    ServeSettings settings;
+    settings.store = folder_;
+    settings.listen = listen;
+    auto server = DesignServer::create(settings);
+    ASSERT_TRUE(server) << server.error().message;
+    server_ = std::move(*server);
+    ends_ = false;
+    thread_ = std::thread([this] { server_->run([this] { return ends_.load(); }); });
+  }
+  void stop() {
+    ends_ = true;
+    if (thread_.joinable()) thread_.join();
+    server_.reset();
+  }
+
+  DesignAddress address(Role role) {
+    const StoreFolder folder = StoreFolder::open(folder_).value();
+    SqliteOpLog log = SqliteOpLog::open(folder.designs()).value();
+    if (!log.find("table").value()) (void)log.create("table");
+    const TokenSigner signer = TokenSigner::open(folder.token_key()).value();
+    const auto token =
+        signer.sign({make_invitation_id().value(), "table", role, wall_milliseconds() + 600'000});
+    return {server_->endpoint().host, server_->endpoint().port, "table", token.value(),
+            server_->fingerprint()};
+  }
+  static std::unique_ptr<Connection> joined(const DesignAddress& address, const std::string& name) {
+    auto connection = Connection::create(address, {make_client_key().value(), name, 0xff, "test"}).value();
+    works(*connection, [&] { return connection->talk().state() == ConversationState::Live; });
+    return connection;
+  }
+  static void works(Connection& connection, const std::function<bool()>& done) {
+    const auto worked = connection.work_until(
+        done, [] { return false; }, kPatient);
+    EXPECT_TRUE(worked && *worked) << (worked ? "" : worked.error().message);
+  }
+  static void saves(Connection& connection) {
+    works(connection, [&] { return connection.talk().replica().unacknowledged() == 0; });
+  }
+  static world::ObjectId makes_box(Connection& connection, const std::string& name) {
+    Conversation& talk = connection.talk();
+    world::IdSource ids(talk.replica().author(), talk.replica().world().next_number(talk.replica().author()));
+    const auto shape = ids.next<world::GeometryId>();
+    const auto object = ids.next<world::ObjectId>();
+    EXPECT_TRUE(
+        talk.perform(world::EditGroup{{world::CreateGeometry{shape, world::box(0.1)},
+                                       world::CreateObject{object, 0, {.name = name, .geometry = shape}}}},
+                     "Create box"));
+    return object;
+  }
+
+  std::filesystem::path folder_;
+  std::unique_ptr<DesignServer> server_;
+  std::atomic<bool> ends_ = false;
+  std::thread thread_;
+};
+
+TEST_F(DesignServerTest, ShowsToAllWhatOneDoes) {
+  const auto ann = joined(address(Role::Edit), "Ann"), bob = joined(address(Role::Edit), "Bob");
+  const world::ObjectId box = makes_box(*ann, "box");
+  saves(*ann);
+  works(*bob, [&] { return bob->talk().replica().world().find(box) != nullptr; });
+  EXPECT_EQ(hash(ann->talk().replica().world()), hash(bob->talk().replica().world()));
+  EXPECT_EQ(bob->talk().name_of(ann->talk().replica().author()), "Ann");
+}
+
+TEST_F(DesignServerTest, ClientsGoOnByThemselvesWhenItIsBack) {
+  const auto ann = joined(address(Role::Edit), "Ann");
+  makes_box(*ann, "first");
+  saves(*ann);
+  const Endpoint listens = server_->endpoint();
+  stop();
+  makes_box(*ann, "while it was away");
+  start(listens);
+  saves(*ann);
+  const auto bob = joined(address(Role::View), "Bob");
+  EXPECT_EQ(bob->talk().replica().world().objects().size(), 2U);
+}
+
+TEST_F(DesignServerTest, TakesALargeModelInPartsAndGivesItInPieces) {
+  const auto ann = joined(address(Role::Edit), "Ann");
+  world::World model;
+  world::IdSource ids;
+  geometry::TriangleMesh mesh;
+  constexpr std::uint32_t kSide = 300;
+  for (std::uint32_t i = 0; i < kSide * kSide; ++i)
+    mesh.positions.push_back({double(i % kSide), double(i / kSide), 0.1 * double(i % 7)});
+  for (std::uint32_t y = 0; y + 1 < kSide; ++y)
+    for (std::uint32_t x = 0; x + 1 < kSide; ++x)
+      mesh.triangles.push_back({y * kSide + x, y * kSide + x + 1, (y + 1) * kSide + x});
+  world::add_object(model, ids, "scan", std::make_shared<world::MeshGeometry>(std::move(mesh)));
+  Conversation& talk = ann->talk();
+  world::IdSource own(talk.replica().author());
+  ASSERT_TRUE(talk.perform(integration_of(model, talk.replica().world(), {}, own), "Integrate"));
+  saves(*ann);
+  const auto bob = joined(address(Role::View), "Bob");
+  EXPECT_EQ(hash(bob->talk().replica().world()), hash(ann->talk().replica().world()));
+}
+
+TEST_F(DesignServerTest, LetsNobodyChangeWhatAnotherHolds) {
+  const auto ann = joined(address(Role::Edit), "Ann"), bob = joined(address(Role::Own), "Bob");
+  const world::ObjectId box = makes_box(*ann, "box");
+  saves(*ann);
+  ann->talk().select(item_of(box));
+  works(*ann, [&] { return ann->talk().holds().contains(item_of(box)); });
+  works(*bob, [&] { return bob->talk().holds().contains(item_of(box)); });
+  const auto number = bob->talk().perform(world::PlaceObject{box, world::at(1, 0, 0)}, "Move box");
+  ASSERT_TRUE(number);
+  std::optional<Dropped> dropped;
+  works(*bob, [&] {
+    for (Seen& seen : bob->talk().take_seen())
+      if (auto* const it = std::get_if<Dropped>(&seen)) dropped = std::move(*it);
+    return dropped.has_value();
+  });
+  EXPECT_EQ(dropped->why, "Ann holds \"box\".");
+  bob->talk().take_away(item_of(box));
+  works(*bob, [&] { return !bob->talk().holds().contains(item_of(box)); });
+  ASSERT_TRUE(bob->talk().perform(world::PlaceObject{box, world::at(2, 0, 0)}, "Move box"));
+  saves(*bob);
+  works(*ann, [&] { return ann->talk().replica().sequence() == bob->talk().replica().sequence(); });
+  EXPECT_EQ(ann->talk().replica().world().find(box)->parent_from_object.translation().x(), 2.0);
+}
+
+}  // namespace
+}  // namespace icome::collab
