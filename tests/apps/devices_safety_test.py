@@ -102,6 +102,19 @@ class InverseTest(SafetyTest):
         self.assertIn("it was lost and came back", said)
         self.assertGreater(json.loads(answer)["lost_ticks"], 0)
 
+    def test_a_nearly_flat_motion_is_no_workspace(self):
+        with subprocess.Popen([PROGRAM, "devices", "calibrate", "haply", "--seconds", "4"], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True,
+                              env={**os.environ, "XDG_CONFIG_HOME": str(self.folder)}) as calibrating:
+            for turn in range(200):
+                side, end = (-1) ** (turn // 10), (-1) ** (turn // 20)
+                self.tell(f"aim {0.04 * side} {-0.14 + 0.0005 * side} {0.2 + 0.04 * end}")
+                time.sleep(0.02)
+            said = calibrating.communicate(timeout=60)[1]
+        self.assertEqual(calibrating.returncode, 1, said)
+        self.assertIn("5 mm each are the least", said)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
     def test_one_device_is_never_opened_twice(self):
         for names in (("haply:049D", "haply:049d"), ("haply", "haply", "haply")):
             shared = [it for name in names for it in ("--device", name)]

@@ -1,6 +1,7 @@
 #include "ui/panels/wrapped_label.h"
 
 #include <QEvent>
+#include <algorithm>
 
 namespace icome::ui {
 
@@ -27,8 +28,9 @@ void WrappedLabel::changeEvent(QEvent* event) {
 }
 
 void WrappedLabel::fit() {
-  const int wanted = heightForWidth(width());
-  if (wanted > 0 && wanted != minimumHeight()) setMinimumHeight(wanted);
+  // What it needs is never told as less than the minimum that it has.
+  setMinimumHeight(0);
+  setMinimumHeight(std::max(0, heightForWidth(width())));
 }
 
 }  // namespace icome::ui

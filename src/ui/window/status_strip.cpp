@@ -152,7 +152,8 @@ struct StatusStrip::Parts {
   QLabel* state = nullptr;
   QLabel* touched = nullptr;
   QLabel* capped = nullptr;
-  int stalled_looks = 0;  // in a row
+  int stalled_looks = 0;   // in a row
+  bool held_back = false;  // the device may not push now
   QLabel* rate = nullptr;
   QLabel* overruns = nullptr;
   QLabel* lateness = nullptr;
@@ -233,7 +234,10 @@ void StatusStrip::Parts::look() {
   look_at_device();
   look_at_servo(now);
   const double reach = session.hands().pointers() > 0 ? session.hands().pointer_info(0).max_force : 0.0;
-  force->add(session.hands().take_forces(), now, reach);
+  std::vector<session::ForceSample> forces = session.hands().take_forces();
+  // What the servo asks for goes nowhere then.
+  for (session::ForceSample& it : forces) it.force = held_back ? 0.0F : it.force;
+  force->add(forces, now, reach);
 }
 
 void StatusStrip::Parts::look_at_device() {
@@ -244,13 +248,15 @@ void StatusStrip::Parts::look_at_device() {
   const std::size_t others = session.hands().mouse().value_or(session.hands().pointers()) - 1;
   const QString more =
       !session.hands().is_mouse_driven() && others > 0 ? QString(" + %1").arg(others) : QString();
-  set(*device, device->fontMetrics().elidedText(name, Qt::ElideRight, 36 * kGrid) + more);
+  const int room = 36 * kGrid - device->fontMetrics().horizontalAdvance(more);
+  set(*device, device->fontMetrics().elidedText(name, Qt::ElideRight, room) + more);
+  device->setToolTip(name);
   // A slow device has nothing new at most ticks.
   stalled_looks = view.status == DeviceStatus::Stalled ? stalled_looks + 1 : 0;
   const bool is_slow = stalled_looks > 0 && stalled_looks < kStalledLooks;
   const DeviceStatus status = is_slow ? DeviceStatus::Ok : view.status;
   const std::string condition = session.hands().use(0).condition;
-  const bool held_back = status == DeviceStatus::Ok && devices::gives_no_force(condition);
+  held_back = status == DeviceStatus::Ok && devices::gives_no_force(condition);
   dot->show(held_back ? DeviceStatus::Stalled : status);
   const bool spared = view.spared && status == DeviceStatus::Ok && !held_back;
   set(*state, spared ? QString("ready, force held down") : words_of(status, condition, others));

@@ -152,6 +152,23 @@ TEST_F(DevicePanelTest, WordsAreNotCutOff) {
   }));
 }
 
+TEST(WrappedLabel, TakesTheRoomThatItsWordsNeed) {
+  QWidget window;
+  WrappedLabel label("one", &window);
+  window.setAttribute(Qt::WA_DontShowOnScreen);
+  window.show();
+  label.resize(100, 20);
+  const int one = label.minimumHeight();
+  EXPECT_GT(one, 0);
+  label.say("many words that do not find room in one line of that width, so that there are more of them");
+  EXPECT_GE(label.minimumHeight(), 3 * one);
+  label.resize(1000, 20);
+  EXPECT_EQ(label.minimumHeight(), one);
+  label.resize(100, 20);
+  label.say("one");
+  EXPECT_EQ(label.minimumHeight(), one);
+}
+
 TEST_F(DevicePanelTest, ADeviceIsKnownHoweverItWasAddressed) {
   ASSERT_TRUE(until([&] { return named<QPushButton>("Connect fake:1"); }));
   named<QLineEdit>("Address of a device")->setText("fake");
