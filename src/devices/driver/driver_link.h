@@ -34,8 +34,9 @@ class DriverLink {
   static constexpr double kRamp = 0.3;  // s
   /// Age of the newest reading at which forces are taken away, as nobody knows where the hand is.
   static constexpr std::int64_t kSilence = 100'000'000;  // ns
-  /// Time in which a hand that is pushed moves a little, whatever it is pushed against.
-  static constexpr std::int64_t kFrozen = 1'000'000'000;  // ns
+  /// Time in which a hand that is pushed moves a little, whatever it is pushed against: tremor is some tenths
+  /// of a millimetre, but coarse encoders (60 um of a Falcon) may hide it for a moment.
+  static constexpr std::int64_t kFrozen = 3'000'000'000;  // ns
 
   explicit DriverLink(const DeviceInfo& info);
 

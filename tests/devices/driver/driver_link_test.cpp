@@ -267,7 +267,7 @@ TEST_F(DriverLinkTest, GivesNoForceWhereReadingsStandStill) {
   };
   frozen(5000, Vector3::Zero());
   EXPECT_EQ(link.condition(), "") << "a device that lies on the table";
-  EXPECT_EQ(frozen(900, asked), asked);
+  EXPECT_EQ(frozen(2900, asked), asked);
   EXPECT_EQ(frozen(300, asked), Vector3::Zero());
   EXPECT_TRUE(tells("No force: what it tells of its place stays the same")) << link.condition();
   EXPECT_EQ(frozen(3000, asked), Vector3::Zero()) << "it would push again into the unknown";
@@ -275,7 +275,7 @@ TEST_F(DriverLinkTest, GivesNoForceWhereReadingsStandStill) {
   EXPECT_EQ(held_force_after(400, asked, 0.011), asked);
   link.may_keep_still();
   frozen(400, asked);
-  EXPECT_EQ(frozen(3000, asked), asked) << "a gamepad";
+  EXPECT_EQ(frozen(6000, asked), asked) << "a gamepad";
 }
 
 TEST_F(DriverLinkTest, TellsWhereManyReadingsAreRefused) {
