@@ -38,7 +38,7 @@ struct RoomStart {
   std::uint64_t fence = 0;                // of the server's lease of the design; at most 2^31
   std::uint64_t history = 0;              // DesignRow::history
   std::optional<Snapshot> snapshot = {};  // world_to_bytes; nothing: the design began empty
-  std::vector<LogEntry> entries = {};     // behind the snapshot
+  std::vector<LogEntry> entries = {};     // all that are kept: some before the snapshot, for those who come back
 };
 
 /// Reads what a room is made of; `fence` is that of the reader's lease.
@@ -135,7 +135,7 @@ class Room {
     std::uint64_t last_number = 0;       // also of refused edits
     std::deque<std::uint64_t> accepted;  // numbers of the last ordered edits
     std::int64_t last_word = 0;          // ms
-    Person person;
+    Person person = {.here = false};
     SharedBytes presence;
     std::uint64_t presence_version = 0;
   };

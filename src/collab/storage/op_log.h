@@ -25,6 +25,7 @@ struct DesignRow {
   std::string name;
   std::uint64_t sequence = 0;           // of its last edit; 0: none yet
   std::uint64_t snapshot_sequence = 0;  // of its newest snapshot; 0: none
+  std::uint64_t kept_after = 0;         // edits up to this one are not kept any more
   std::uint64_t bytes = 0;              // of its snapshot and the edits behind it
   /// A number that another history of the design does not have: it is made anew when a store is restored from
   /// a backup, and when a design is created under a name that was used before. What somebody knows of the
