@@ -5,7 +5,7 @@
 #include "store_figures.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures the store of designs. Takes half a minute.");
+  CLI::App app("Measures the stores of designs. Takes a minute.");
   bool is_quick = false;
   std::string folder = std::filesystem::temp_directory_path().string();
   app.add_flag("--quick", is_quick, "A short run: does it work at all?");
