@@ -4,7 +4,9 @@
 #include <libpq-fe.h>
 #include <poll.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <optional>
 #include <thread>
@@ -329,7 +331,7 @@ base::Result<void> PostgresConnection::commit() {
 void PostgresConnection::roll_back() {
   if (!handle_) return;
   const bool is_again = is_again_;
-  (void)execute("ROLLBACK");  // what fails there ends the connection, and the transaction with it
+  if (!execute("ROLLBACK")) handle_.reset();  // which ends the transaction, too
   is_again_ = is_again;
 }
 
