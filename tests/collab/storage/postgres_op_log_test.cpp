@@ -258,6 +258,32 @@ TEST_F(PostgresOpLogTest, AcknowledgesNothingThatACopyDoesNotHave) {
   EXPECT_FALSE(append_to(log, "a", last, fence, sample_entries(last, 1)));
 }
 
+/// A trigger stands for others that change the same at once: it fails the first times, which a sequence
+/// counts.
+TEST_F(PostgresOpLogTest, TriesAgainWhereOthersWereInTheWay) {
+  PostgresOpLog log = opened();
+  good(log.create("a"));
+  const std::uint64_t fence = good(log.lease("a", "server", 60'000)).fence;
+  meddle("CREATE SEQUENCE tries");
+  meddle(
+      "CREATE FUNCTION be_in_the_way() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN IF nextval('tries') <= 3 "
+      "THEN "
+      "RAISE EXCEPTION 'in the way' USING ERRCODE = '40001'; END IF; RETURN NEW; END $$");
+  meddle(
+      "CREATE TRIGGER in_the_way BEFORE INSERT ON icome.edits FOR EACH STATEMENT EXECUTE FUNCTION "
+      "be_in_the_way()");
+  const std::vector<Append> batches{{"a", 0, fence, sample_entries(0, 2)},
+                                    {"a", 0, fence, sample_entries(0, 1)}};
+  const auto results = log.append(batches);
+  EXPECT_FALSE(results[0]);
+  EXPECT_EQ(results[1].value().problem, AppendProblem::WrongSequence);
+  EXPECT_EQ(good(log.read_from("a", 0, 1000)), sample_entries(0, 2));
+  meddle("ALTER SEQUENCE tries MINVALUE -100 RESTART WITH -100");
+  EXPECT_EQ(append_to(log, "a", 2, fence, sample_entries(2, 1)).value().message,
+            place() + ": too many changed the same at once. Nothing was changed; try again.");
+  EXPECT_EQ(good(log.find("a")).value().sequence, 2U);
+}
+
 TEST_F(PostgresOpLogTest, TakesLargeEditsAndLongKeys) {
   PostgresOpLog log = opened();
   good(log.create("a"));
