@@ -7,7 +7,7 @@
 #include "store_figures.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures the server and the store of designs. Takes a minute.");
+  CLI::App app("Measures the server and the stores of designs. Takes two minutes.");
   bool is_quick = false;
   std::string folder = std::filesystem::temp_directory_path().string();
   app.add_flag("--quick", is_quick, "A short run: does it work at all?");

@@ -10,6 +10,8 @@
 #include "base/clock.h"
 #include "base/random.h"
 #include "collab/storage/memory_op_log.h"
+#include "collab/storage/postgres_op_log.h"
+#include "collab/storage/postgres_server.h"
 #include "collab/storage/sqlite_op_log.h"
 
 namespace icome::benchmarks {
@@ -26,7 +28,7 @@ T demand_value(base::Result<T> result) {
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-/// A folder for one row, removed with the object.
+/// A folder for files of stores, removed with the object.
 class RowFolder {
  public:
   explicit RowFolder(const std::filesystem::path& within) {
@@ -37,10 +39,12 @@ class RowFolder {
   RowFolder(const RowFolder&) = delete;
   RowFolder& operator=(const RowFolder&) = delete;
   ~RowFolder() { std::filesystem::remove_all(path_); }
-  std::filesystem::path database() const { return path_ / "designs.sqlite"; }
+  /// Another one with each call.
+  std::filesystem::path database() { return path_ / fmt::format("designs_{}.sqlite", ++databases_); }
 
  private:
   std::filesystem::path path_;
+  int databases_ = 0;
 };
 
 /// Designs of a log, and edits for them, one after the other.
@@ -140,26 +144,38 @@ StoreRow paced_row(std::string figure, OpLog& log, const StoreExtent& extent) {
   return row;
 }
 
+/// The rows of one kind of store; `open` gives an empty one with each call.
+template <typename Open>
+void add_rows(std::vector<StoreRow>& rows, const std::string& kind, Open&& open, const StoreExtent& extent) {
+  for (const std::size_t group : {1U, 8U, 64U, 256U}) {
+    auto log = open();
+    const char* const naive = group == 1 ? " (naive: each by itself)" : "";
+    rows.push_back(
+        grouped_row(fmt::format("{}: commits of {}{}", kind, group, naive), log, 1, group, extent));
+  }
+  {
+    auto log = open();
+    rows.push_back(grouped_row(kind + ": commits of 64, in 64 designs", log, 64, 64, extent));
+  }
+  auto log = open();
+  rows.push_back(paced_row(
+      fmt::format("{}: {:.0f} edits/s come in, commits of all", kind, extent.edits_a_second), log, extent));
+}
+
 }  // namespace
 
 std::vector<StoreRow> store_figures(const std::filesystem::path& folder, const StoreExtent& extent) {
   std::vector<StoreRow> rows;
-  for (const std::size_t group : {1U, 8U, 64U, 256U}) {
-    const RowFolder place(folder);
-    SqliteOpLog log = demand_value(SqliteOpLog::open(place.database()));
-    const char* const naive = group == 1 ? " (naive: each by itself)" : "";
-    rows.push_back(grouped_row(fmt::format("commits of {}{}", group, naive), log, 1, group, extent));
-  }
-  {
-    const RowFolder place(folder);
-    SqliteOpLog log = demand_value(SqliteOpLog::open(place.database()));
-    rows.push_back(grouped_row("commits of 64, in 64 designs", log, 64, 64, extent));
-  }
-  {
-    const RowFolder place(folder);
-    SqliteOpLog log = demand_value(SqliteOpLog::open(place.database()));
-    rows.push_back(paced_row(
-        fmt::format("{:.0f} edits/s come in, commits of all there are", extent.edits_a_second), log, extent));
+  RowFolder place(folder);
+  add_rows(
+      rows, "SQLite", [&] { return demand_value(SqliteOpLog::open(place.database())); }, extent);
+  if (PostgresServer::programs()) {
+    PostgresServer server(folder);
+    add_rows(
+        rows, "PostgreSQL", [&] { return demand_value(PostgresOpLog::open(server.fresh_database())); },
+        extent);
+  } else {
+    fmt::print("PostgreSQL is not installed, and not measured: tools/install-packages bench\n");
   }
   MemoryOpLog memory;
   StoreExtent shorter = extent;

@@ -21,7 +21,7 @@ struct StoreRow {
   std::optional<double> p99_to_reach_ms = std::nullopt;
 };
 
-/// Measures the store of designs on the disk of `folder`.
+/// Measures the stores of designs on the disk of `folder`: SQLite, and PostgreSQL where it is installed.
 std::vector<StoreRow> store_figures(const std::filesystem::path& folder, const StoreExtent& extent);
 
 void print_table(const std::vector<StoreRow>& rows, const StoreExtent& extent,

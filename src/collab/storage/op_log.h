@@ -61,7 +61,8 @@ struct AuthorRow {
 };
 
 /// The reason why a batch was not appended. Malformed: its sequences have gaps, or something in it is larger
-/// than a log takes. Store: the disk or the database failed, and none of the batches of the call is there.
+/// than a log takes. Store: the disk or the database failed, and none of the batches of the call is there;
+/// where the connection to a database was lost during the commit, all of them may be.
 enum class AppendProblem { Fenced, WrongSequence, NoDesign, Malformed, Store };
 struct AppendError {
   AppendProblem problem = AppendProblem::Store;
@@ -117,7 +118,8 @@ class OpLog {
   virtual base::Result<void> revoke(const std::string& invitation) = 0;
   /// All that were ended, in that order.
   virtual base::Result<std::vector<std::string>> revoked() = 0;
-  /// A number that changes whenever anybody revokes, in this process or another; costs microseconds to ask.
+  /// A number that changes whenever anybody revokes, in this process or another; costs microseconds to ask,
+  /// or one way to a database and back.
   virtual base::Result<std::uint64_t> revoked_version() = 0;
 };
 

@@ -2,12 +2,14 @@
 // Edits for logs, and what tests do with a log again and again.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "base/parse_number.h"
 #include "base/random.h"
 #include "collab/storage/sqlite_op_log.h"
 
@@ -47,6 +49,12 @@ inline std::optional<AppendError> append_to(OpLog& log, const std::string& desig
                                             std::uint64_t fence, std::vector<LogEntry> batch) {
   const Append append{design, after, fence, std::move(batch)};
   return log.append({&append, 1}).front();
+}
+
+/// ICOME_STORE_KILLS=1000 asks tests that kill for more, which takes a minute or some.
+inline int kills_asked_for() {
+  const char* const text = std::getenv("ICOME_STORE_KILLS");
+  return text ? base::parse_number<int>(text).value_or(0) : 30;
 }
 
 inline std::string bytes_in(const std::filesystem::path& path) {

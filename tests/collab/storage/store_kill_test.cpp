@@ -5,10 +5,8 @@
 
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <thread>
 
-#include "base/parse_number.h"
 #include "collab/storage/sample_log.h"
 #include "collab/storage/store_care.h"
 #include "files/sample_files.h"
@@ -16,12 +14,6 @@
 
 namespace icome::collab {
 namespace {
-
-/// ICOME_STORE_KILLS=1000 asks for more, which takes a minute.
-int kills_asked_for() {
-  const char* const text = std::getenv("ICOME_STORE_KILLS");
-  return text ? base::parse_number<int>(text).value_or(0) : 30;
-}
 
 constexpr std::size_t kMostAppended = 4;  // edits in one batch
 
