@@ -4,14 +4,39 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <string>
 
 #include "apps/interrupt.h"
 #include "base/terminal_text.h"
 
 namespace icome::apps {
 
-void tell(std::string_view sentence) { fmt::print(stderr, "icome: {}\n", base::terminal_text(sentence)); }
+namespace {
+
+/// The sentence without the secrets of links, which whoever reads over one's shoulder could use.
+std::string without_tokens(std::string_view sentence) {
+  constexpr std::string_view kBegin = "token=";
+  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+  std::string result;
+  while (!sentence.empty()) {
+    const std::size_t begin = std::min(sentence.find(kBegin), sentence.size());
+    result += sentence.substr(0, begin);
+    sentence.remove_prefix(begin);
+    if (sentence.empty()) break;
+    result += "token=...";
+    sentence.remove_prefix(kBegin.size());
+    sentence.remove_prefix(std::min(sentence.find_first_not_of(kLetters), sentence.size()));
+  }
+  return result;
+}
+
+}  // namespace
+
+void tell(std::string_view sentence) {
+  fmt::print(stderr, "icome: {}\n", base::terminal_text(without_tokens(sentence)));
+}
 
 bool ask(std::string_view question) {
   fmt::print(stderr, "{} [y/N] ", base::terminal_text(question));

@@ -7,7 +7,7 @@ namespace icome::apps {
 // Output of text for people. Text from files may be anything, so it all goes through
 // base::terminal_text().
 
-/// "icome: The sentence." on standard error.
+/// "icome: The sentence." on standard error, without the secrets of links in it.
 void tell(std::string_view sentence);
 /// Asks on standard error, and waits for a line on standard input; true for one that begins with y. False at
 /// the end of the input, and when the run is asked to end (interrupt.h).

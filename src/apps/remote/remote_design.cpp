@@ -56,11 +56,16 @@ std::string shown_name(const std::filesystem::path& design) {
   return address ? collab::shown_address(*address) : "icome://...";
 }
 
-base::Result<std::unique_ptr<collab::Connection>> join_design(const std::string& text, StatusLine& status) {
-  const auto address = collab::design_address(text);
+base::Result<std::unique_ptr<collab::Connection>> join_design(const std::string& text, StatusLine& status,
+                                                              bool only_reads) {
+  auto address = collab::design_address(text);
   if (!address) return tl::unexpected(address.error());
+  // So that the secret need not stand among a process's arguments, which everybody can see.
+  if (const char* const token = std::getenv("ICOME_TOKEN"); token != nullptr && address->token.empty())
+    address->token = token;
   auto identity = identity_of_this_run();
   if (!identity) return tl::unexpected(identity.error());
+  identity->only_reads = only_reads;
   auto connection = collab::Connection::create(*address, std::move(*identity));
   if (!connection) return connection;
   status.say("Connecting to " + collab::shown_address(*address));
@@ -76,7 +81,7 @@ base::Result<std::unique_ptr<collab::Connection>> join_design(const std::string&
 }
 
 base::Result<files::LoadedDesign> fetch_design(const std::string& text, StatusLine& status) {
-  auto connection = join_design(text, status);
+  auto connection = join_design(text, status, true);
   if (!connection) return tl::unexpected(connection.error());
   files::LoadedDesign design;
   design.world = (*connection)->talk().replica().world();

@@ -23,7 +23,10 @@ std::string shown_name(const std::filesystem::path& design);
 
 /// Connects to the design of an address and waits until it is here, showing a person who waits the progress,
 /// until Ctrl-C; catch_interrupts() was called.
-base::Result<std::unique_ptr<collab::Connection>> join_design(const std::string& address, StatusLine& status);
+/// An address without a token takes that of the environment variable ICOME_TOKEN. `only_reads`: nothing will
+/// be changed.
+base::Result<std::unique_ptr<collab::Connection>> join_design(const std::string& address, StatusLine& status,
+                                                              bool only_reads = false);
 
 /// Reads the design of an address.
 base::Result<files::LoadedDesign> fetch_design(const std::string& address, StatusLine& status);

@@ -38,6 +38,8 @@ class RemoteTarget final : public interaction::OperationTarget {
   const world::World& world() const override { return talk_.replica().world(); }
   world::IdSource& ids() override { return ids_; }
   base::Result<void> act(const world::Edit& edit, const std::string& title) override {
+    if (talk_.role() < collab::Role::Edit)
+      return base::fail("You may look at this design, but not change it.");
     return keep(talk_.perform(edit, title));
   }
   base::Result<void> undo() override { return keep(talk_.undo()); }
@@ -73,12 +75,14 @@ class RemoteScript {
       return perform_one(command, line);
     };
     const EditOutcome outcome = perform_script(perform, text, true, goes_on);
-    if (outcome.stopped) return base::fail("interrupted");
     for (const EditError& error : outcome.errors) refused_.push_back({error.line, error.message});
-    if (auto done = wait_until_durable(connection_, status); !done) return done;
+    base::Result<void> done = base::fail("interrupted");
+    if (!outcome.stopped) done = wait_until_durable(connection_, status);
     note(talk_.take_seen());
+    unknown_ = talk_.replica().unacknowledged();
+    if (sequence_ == 0) sequence_ = talk_.replica().sequence();
     std::ranges::sort(refused_, {}, &RefusedLine::line);
-    return {};
+    return done;
   }
 
   /// Takes what has happened into account; it stays to be told.
@@ -97,6 +101,8 @@ class RemoteScript {
   }
 
   std::size_t applied() const { return applied_; }
+  /// Edits of which nobody here knows what became of them.
+  std::size_t unknown() const { return unknown_; }
   std::uint64_t sequence() const { return sequence_; }
   const std::vector<RefusedLine>& refused() const { return refused_; }
   std::vector<collab::Seen> take_seen() { return std::exchange(seen_, {}); }
@@ -107,7 +113,7 @@ class RemoteScript {
     const Value* const name = command.fields() ? interaction::field(*command.fields(), "op") : nullptr;
     if (name && name->text() && (*name->text() == "select" || *name->text() == "deselect"))
       return hold(*command.fields(), *name->text() == "select");
-    constexpr std::size_t kMostPending = 1'000;  // so that the server's other clients are heard, too
+    constexpr std::size_t kMostPending = 250;  // so that the server's other clients are heard, too
     const std::size_t most = talk_.replica().pending() >= kMostPending ? kMostPending / 2 : kMostPending;
     const auto has_room = [&] { return talk_.replica().pending() <= most; };
     if (const auto worked = connection_.work_until(has_room, interrupted, kServerPatience); !worked)
@@ -161,7 +167,7 @@ class RemoteScript {
   std::map<std::uint64_t, std::size_t> lines_;  // by the numbers of edits
   std::vector<RefusedLine> refused_;
   std::vector<collab::Seen> seen_;
-  std::size_t applied_ = 0;
+  std::size_t applied_ = 0, unknown_ = 0;
   std::uint64_t sequence_ = 0;
 };
 
@@ -169,6 +175,7 @@ std::string outcome_json(const RemoteScript& script) {
   Json json{{"applied", script.applied()}, {"refused", Json::array()}, {"sequence", script.sequence()}};
   for (const RefusedLine& it : script.refused())
     json["refused"].push_back({{"line", it.line}, {"why", it.why}});
+  if (script.unknown() > 0) json["unknown"] = script.unknown();
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -176,6 +183,9 @@ std::string outcome_text(const RemoteScript& script, const EditOptions& options)
   std::string text =
       fmt::format("{}: {} edit{}, the last is number {} of the design\n", shown_name(options.in),
                   script.applied(), script.applied() == 1 ? "" : "s", script.sequence());
+  if (script.unknown() > 0)
+    text += fmt::format("  what became of {} edit{} more is not known: look into the design\n",
+                        script.unknown(), script.unknown() == 1 ? "" : "s");
   for (const RefusedLine& it : script.refused())
     text += fmt::format("  {}:{}: {}\n", options.apply.string(), it.line, it.why);
   return text;
@@ -213,8 +223,11 @@ int run_remote_edit(const EditOptions& options) {
   if (!connection) return end_without_result(connection.error(), status);
   RemoteScript script(**connection, options);
   if (!options.apply.empty()) {
-    if (const auto done = script.run(*text, status); !done) return end_without_result(done.error(), status);
+    const auto done = script.run(*text, status);
+    status.clear();
     const int printed = print_answer(options.json ? outcome_json(script) : outcome_text(script, options));
+    if (!done) tell(interrupted() ? "interrupted: what was sent before stays done." : done.error().message);
+    if (!done) return interrupted() ? kDesignInterrupted : kDesignFailed;
     if (printed != 0) return printed;
   }
   if (options.watch)

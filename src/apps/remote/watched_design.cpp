@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace icome::apps {
@@ -17,7 +18,9 @@ std::string name_in(const Conversation& talk, Item item) {
 
 Json item_json(const Conversation& talk, Item item) {
   static constexpr const char* kKinds[] = {"object", "shape", "material", "texture", "scene"};
-  return {{"kind", kKinds[std::size_t(item.kind)]}, {"id", item.id}, {"name", name_in(talk, item)}};
+  return {{"kind", kKinds[std::size_t(item.kind)]},
+          {"id", item.id},
+          {"name", collab::name_of(talk.replica().world(), item)}};
 }
 
 Json author_json(const Conversation& talk, std::uint32_t author) {
@@ -74,6 +77,7 @@ struct WatchedJson {
     return {{"event", "floor"},
             {"item", item_json(talk, it.item)},
             {"holder", author_json(talk, it.holder)},
+            {"author", it.holder},
             {"fence", it.fence},
             {"taken_by", author_json(talk, it.taken_by)}};
   }
@@ -128,7 +132,11 @@ struct WatchedText {
 }  // namespace
 
 std::string watched_line(const collab::Seen& seen, const Conversation& talk, bool json) {
-  if (!json) return std::visit(WatchedText{talk}, seen);
+  if (!json) {
+    std::string line = std::visit(WatchedText{talk}, seen);
+    std::ranges::replace(line, '\n', ' ');  // a name of several lines is no line of its own
+    return line;
+  }
   return std::visit(WatchedJson{talk}, seen).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

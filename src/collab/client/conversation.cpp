@@ -13,7 +13,10 @@ namespace {
 constexpr std::size_t kFrameBytes = 1U << 18U;  // at most so many are begun to be put into one frame
 constexpr std::size_t kPartBytes = 1U << 18U;   // of an edit that is sent in parts
 constexpr std::uint64_t kWantsAhead = 3;        // parts of a snapshot that are asked for at a time
-constexpr std::int64_t kUsualLease = 8'000;     // ms
+constexpr std::size_t kMuch = 1'000;            // bytes of a frame that may hold several edits
+constexpr const char* kRestored =
+    "The design was restored from an earlier state: what came after it is gone.";
+constexpr std::int64_t kUsualLease = 8'000;  // ms
 
 }  // namespace
 
@@ -43,6 +46,7 @@ void Conversation::opened(std::int64_t now) {
   hello.have = replica_.durable();
   hello.history = history_;
   hello.first_pending = replica_.first_pending();
+  hello.only_reads = identity_.only_reads;
   queue(hello);
 }
 
@@ -54,16 +58,25 @@ void Conversation::closed(const std::string& why, std::int64_t now) {
   for (auto& [author, person] : people_) person.here = false;
   if (const auto done = replica_.rewind(); !done) needs_anew_ = true;
   if (state_ != ConversationState::Ended) change_state(ConversationState::Away, why_.empty() ? why : why_);
+  if (state_ != ConversationState::Ended) why_.clear();
 }
 
 void Conversation::received(std::string_view frame, std::int64_t now) {
   now_ = now;
+  // Own edits are taken back and redone once for all that a frame brings.
+  const bool brings_much = frame.size() > kMuch && replica_.pending() > 0;
+  if (brings_much)
+    if (const auto done = replica_.put_aside(); !done) begin_anew(done.error());
   while (!frame.empty() && !wants_to_close_) {
     const auto bytes = next_in_frame(frame);
     auto message = bytes ? server_message(*bytes) : tl::unexpected(bytes.error());
-    if (!message) return begin_anew(message.error());
-    std::visit([this](auto& it) { hear(it); }, *message);
+    if (!message) {
+      begin_anew(message.error());
+    } else {
+      std::visit([this](auto& it) { hear(it); }, *message);
+    }
   }
+  if (brings_much) replica_.refresh();
 }
 
 SharedBytes Conversation::next_frame(std::int64_t now) {
@@ -145,6 +158,8 @@ void Conversation::hear(Welcome& message) {
                        message.snapshot_bytes == welcome_->snapshot_bytes &&
                        message.snapshot <= welcome_->durable;
   why_.clear();
+  if (history_ != 0 && message.history != history_)
+    if (const auto done = notice_restored(message.author); !done) return begin_anew(done.error());
   replica_.set_author(message.author, message.last_number);
   role_ = message.role;
   history_ = message.history;
@@ -157,6 +172,17 @@ void Conversation::hear(Welcome& message) {
   asked_for_ = snapshot_.size();
   if (snapshot_.size() == message.snapshot_bytes) return finish_loading();
   want_pieces();
+}
+
+/// Another author's number would make the ids of new things somebody else's: what is pending is given up
+/// then.
+base::Result<void> Conversation::notice_restored(std::uint32_t author) {
+  seen_.emplace_back(SeenState{ConversationState::Joining, kRestored});
+  if (author == replica_.author()) return {};
+  auto dropped = replica_.give_up_pending(kRestored);
+  if (!dropped) return tl::unexpected(dropped.error());
+  for (Dropped& it : *dropped) seen_.emplace_back(std::move(it));
+  return {};
 }
 
 void Conversation::want_pieces() {
@@ -185,7 +211,7 @@ void Conversation::finish_loading() {
   if (const auto done = replica_.begin(std::move(*world), welcome_->snapshot, welcome_->accepted); !done)
     return begin_anew(done.error());
   needs_anew_ = false;
-  (void)replica_.durable({welcome_->durable});
+  seen_.emplace_back(SeenDurable{welcome_->durable, replica_.durable({welcome_->durable})});
   queue(Loaded{welcome_->snapshot});
   go_live_if_caught_up();
 }
@@ -200,7 +226,7 @@ double Conversation::progress() const {
 void Conversation::go_live_if_caught_up() {
   if (!welcome_ || settled_ || replica_.sequence() < welcome_->sequence) return;
   settled_ = true;
-  auto dropped = replica_.settle(welcome_->last_number);
+  auto dropped = replica_.settle(welcome_->last_number, welcome_->loads ? welcome_->accepted_from : 0);
   if (!dropped) return begin_anew(dropped.error());
   for (Dropped& it : *dropped) seen_.emplace_back(std::move(it));
   change_state(ConversationState::Live, "");

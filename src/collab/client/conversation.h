@@ -19,6 +19,7 @@ struct ClientIdentity {
   std::string name = {};            // of the person
   std::uint32_t colour = 0x808080;  // 0xRRGGBB
   std::string program = {};
+  bool only_reads = false;  // nothing will be changed
 };
 
 /// How far a conversation has got.
@@ -129,6 +130,7 @@ class Conversation {
   void queue(const ClientMessage& message);
   void queue_edit(Submit submit);
   void queue_edits();
+  base::Result<void> notice_restored(std::uint32_t author);
   void want_pieces();
   void finish_loading();
   void go_live_if_caught_up();

@@ -64,13 +64,26 @@ base::Result<void> Replica::take_pending_back(std::size_t from) {
 /// Those that do not apply now stay aside: others' next edits may make room for them before the server sees
 /// them.
 void Replica::redo_pending(std::size_t from) {
+  if (aside_) return;
   for (std::size_t i = from; i < pending_.size(); ++i) {
     Pending& it = pending_[i];
+    if (it.inverse) continue;
     auto inverse = change(it.edit);
     if (!inverse) continue;
     if (const auto own = own_.find(it.number); own != own_.end()) own->second.inverse = *inverse;
     it.inverse = std::move(*inverse);
   }
+}
+
+base::Result<void> Replica::put_aside() {
+  auto done = take_pending_back();
+  aside_ = true;
+  return done;
+}
+
+void Replica::refresh() {
+  aside_ = false;
+  redo_pending();
 }
 
 bool Replica::merges_into_last(const world::Edit& edit) const {
@@ -234,13 +247,27 @@ std::vector<std::uint64_t> Replica::durable(const Durable& it) {
   return own;
 }
 
-base::Result<std::vector<Dropped>> Replica::settle(std::uint64_t last_number) {
+base::Result<std::vector<Dropped>> Replica::settle(std::uint64_t last_number, std::uint64_t accepted_from) {
   std::vector<Dropped> dropped;
   if (pending_.empty() || pending_.front().number > last_number) return dropped;
   if (auto done = take_pending_back(); !done) return tl::unexpected(done.error());
-  while (!pending_.empty() && pending_.front().number <= last_number)
-    dropped.push_back(drop(0, "The server refused it while the connection was lost.", 0));
+  while (!pending_.empty() && pending_.front().number <= last_number) {
+    const bool is_known = pending_.front().number >= accepted_from;
+    dropped.push_back(
+        drop(0,
+             is_known ? "The server refused it while the connection was lost."
+                      : "The connection was lost for so long that nobody knows whether it was done: look "
+                        "before doing it again.",
+             0));
+  }
   redo_pending();
+  return dropped;
+}
+
+base::Result<std::vector<Dropped>> Replica::give_up_pending(const std::string& why) {
+  std::vector<Dropped> dropped;
+  if (auto done = take_pending_back(); !done) return tl::unexpected(done.error());
+  while (!pending_.empty()) dropped.push_back(drop(0, why, 0));
   return dropped;
 }
 

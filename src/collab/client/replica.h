@@ -78,6 +78,11 @@ class Replica {
   /// Own edits that are not durable yet, ordered or not.
   std::size_t unacknowledged() const;
 
+  /// Own edits are taken back while much of what the server says is taken in; refresh() redoes them. Until
+  /// then world() is without them.
+  base::Result<void> put_aside();
+  void refresh();
+
   // ---- what the server says; a failure means that the copy differs from the server's: begin() anew
 
   /// Begins with a snapshot, which holds the own edits with these numbers; the other pending ones are redone
@@ -92,7 +97,10 @@ class Replica {
   std::vector<std::uint64_t> durable(const Durable& it);
   /// All that the server had ordered when it said welcome is here: own edits up to its `last_number` that
   /// were not among it were refused while nobody listened.
-  base::Result<std::vector<Dropped>> settle(std::uint64_t last_number);
+  /// `accepted_from`: it is known of all numbers from this one on.
+  base::Result<std::vector<Dropped>> settle(std::uint64_t last_number, std::uint64_t accepted_from);
+  /// Own edits that are not ordered yet are given up; the world is without them.
+  base::Result<std::vector<Dropped>> give_up_pending(const std::string& why);
   /// The connection is lost: goes back to what is durable. Own edits behind it are pending and unsent again.
   base::Result<void> rewind();
 
@@ -156,6 +164,7 @@ class Replica {
   std::uint64_t durable_ = 0;   // that the server has named
   std::deque<Tentative> tentative_;
   std::deque<Pending> pending_;
+  bool aside_ = false;  // put_aside() was called, and not refresh() yet
   std::vector<Pending>
       covered_;  // own edits in the snapshot that the world began with, until that is durable
   std::map<std::uint64_t, Own> own_;  // by number

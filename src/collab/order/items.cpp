@@ -129,8 +129,8 @@ struct EditWord {
   std::string operator()(const world::ReserveIds&) const { return "reserve ids"; }
   std::string operator()(const world::EditGroup& it) const {
     const auto is_of_object = [](const world::Edit& edit) {
-      return std::holds_alternative<world::CreateObject>(edit.what) ||
-             std::holds_alternative<world::DeleteObject>(edit.what);
+      const std::vector<Touched> touched = touched_by(edit);
+      return !touched.empty() && touched.front().item.kind == ItemKind::Object;
     };
     const auto found = std::find_if(it.edits.begin(), it.edits.end(), is_of_object);
     if (found != it.edits.end()) return edit_word(*found);
@@ -156,21 +156,28 @@ bool is_there(const world::World& world, Item item) {
   return false;
 }
 
+std::string name_of(const world::World& world, Item item) {
+  const auto name = [](const auto* thing) { return thing == nullptr ? std::string() : thing->name; };
+  switch (item.kind) {
+    case ItemKind::Object:
+      return name(world.find(world::ObjectId{item.id}));
+    case ItemKind::Material:
+      return name(world.find(world::MaterialId{item.id}));
+    case ItemKind::Texture:
+      return name(world.find(world::TextureId{item.id}));
+    case ItemKind::Scene:
+      return name(world.find(world::SceneId{item.id}));
+    case ItemKind::Shape:
+      break;
+  }
+  return {};
+}
+
 std::string called(const world::World& world, Item item) {
   static constexpr const char* kKinds[] = {"object", "shape", "material", "texture", "scene"};
-  std::string name;
-  if (const auto* const object = world.find(world::ObjectId{item.id});
-      item.kind == ItemKind::Object && object)
-    name = object->name;
-  if (const auto* const it = world.find(world::MaterialId{item.id}); item.kind == ItemKind::Material && it)
-    name = it->name;
-  if (const auto* const it = world.find(world::TextureId{item.id}); item.kind == ItemKind::Texture && it)
-    name = it->name;
-  if (const auto* const it = world.find(world::SceneId{item.id}); item.kind == ItemKind::Scene && it)
-    name = it->name;
-  const std::uint64_t number = item.id & world::IdSource::kNumberMask;
-  return name.empty() ? fmt::format("{} {}", kKinds[std::size_t(item.kind)], number)
-                      : fmt::format("\"{}\"", name);
+  const std::string name = name_of(world, item);
+  if (!name.empty()) return fmt::format("\"{}\"", name);
+  return fmt::format("{} {}", kKinds[std::size_t(item.kind)], item.id & world::IdSource::kNumberMask);
 }
 
 std::vector<Touched> touched_by(const world::Edit& edit) {

@@ -29,6 +29,8 @@ inline Item item_of(world::SceneId id) { return {ItemKind::Scene, id.value}; }
 
 /// Is the thing in the world?
 bool is_there(const world::World& world, Item item);
+/// The name of a thing; empty for a shape, and for one without a name or that is not there.
+std::string name_of(const world::World& world, Item item);
 /// The thing in sentences: "leg", or "object 12" for one without a name.
 std::string called(const world::World& world, Item item);
 
@@ -64,7 +66,7 @@ struct Needs {
 Needs needs_of(const world::Edit& edit);
 
 /// The word for what an edit does, for logs and scripts: "create", "translate", "delete" and so on. That of a
-/// group is the first one that makes or deletes an object in it, or the first of all; "group" for an empty
+/// group is that of the first edit of an object in it, or the first of all; "group" for an empty
 /// one.
 std::string edit_word(const world::Edit& edit);
 

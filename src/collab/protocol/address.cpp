@@ -98,7 +98,10 @@ bool is_fingerprint(std::string_view text) {
          text.substr(kKind.size()).find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-bool is_design_address(std::string_view text) { return text.starts_with(kScheme); }
+bool is_design_address(std::string_view text) {
+  const auto is_same = [](char one, char other) { return (one | 0x20) == (other | 0x20); };
+  return text.size() >= kScheme.size() && std::equal(kScheme.begin(), kScheme.end(), text.begin(), is_same);
+}
 
 base::Result<DesignAddress> design_address(std::string_view text) {
   if (!is_design_address(text)) return base::fail(std::string(kForm));

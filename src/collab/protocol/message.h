@@ -36,8 +36,9 @@ struct Hello {
   bool has_world = false;       // the client has the world as it was after the edit `have`, which is durable
   std::uint64_t have = 0;
   std::uint64_t history = 0;  // that the world is of, as Welcome said
-  std::uint64_t first_pending =
-      0;  // the lowest number of the client's edits that are not known to be durable
+  /// The lowest number of the client's edits that are not known to be durable.
+  std::uint64_t first_pending = 0;
+  bool only_reads = false;  // nothing will be changed: the client need not be an author
 };
 /// Asks for a part of a snapshot, which comes in pieces.
 struct Want {
@@ -107,7 +108,8 @@ struct Welcome {
   std::uint64_t snapshot_bytes = 0;          // 0: an empty design
   std::uint32_t lease = 0;                   // ms without a word after which holds are lost
   std::uint64_t history = 0;                 // another one where the store was restored from a backup
-  std::vector<std::uint64_t> accepted = {};  // numbers of the author's edits that the snapshot holds
+  std::vector<std::uint64_t> accepted = {};  // numbers of the author's edits that the snapshot holds,
+  std::uint64_t accepted_from = 0;           // all of them from this number on
 };
 /// The reason why somebody does not get in, or has to leave.
 enum class Parting : std::uint8_t {

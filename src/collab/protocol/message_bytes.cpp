@@ -91,9 +91,9 @@ class MessageWriter {
 
   WrittenContent operator()(const Welcome& it) {
     const auto accepted = builder_.CreateVector(it.accepted);
-    return as_content(flat::CreateWelcome(builder_, it.version, it.author, it.last_number,
-                                          std::uint8_t(it.role), it.sequence, it.durable, it.loads,
-                                          it.snapshot, it.snapshot_bytes, it.lease, it.history, accepted));
+    return as_content(flat::CreateWelcome(
+        builder_, it.version, it.author, it.last_number, std::uint8_t(it.role), it.sequence, it.durable,
+        it.loads, it.snapshot, it.snapshot_bytes, it.lease, it.history, accepted, it.accepted_from));
   }
   WrittenContent operator()(const Refused& it) {
     return as_content(flat::CreateRefused(builder_, text(it.why), std::uint8_t(it.code)));
@@ -173,7 +173,8 @@ class MessageReader {
   ClientMessage operator()(const flat::Hello& it) {
     return Hello{it.least_version(),    it.most_version(), text(it.token()), text(it.design()),
                  text(it.client_key()), text(it.name()),   it.colour(),      text(it.program()),
-                 it.has_world(),        it.have(),         it.history(),     it.first_pending()};
+                 it.has_world(),        it.have(),         it.history(),     it.first_pending(),
+                 it.only_reads()};
   }
   ClientMessage operator()(const flat::Want& it) { return Want{it.snapshot(), it.offset(), it.bytes()}; }
   ClientMessage operator()(const flat::Loaded& it) { return Loaded{it.snapshot()}; }
@@ -190,10 +191,11 @@ class MessageReader {
   ClientMessage operator()(const flat::Bye&) { return Bye{}; }
 
   ServerMessage operator()(const flat::Welcome& it) {
-    return Welcome{it.version(),    it.author(),   it.last_number(),
-                   role(it.role()), it.sequence(), it.durable(),
-                   it.loads(),      it.snapshot(), it.snapshot_bytes(),
-                   it.lease(),      it.history(),  reader_.items<std::uint64_t>(it.accepted())};
+    return Welcome{it.version(),      it.author(),   it.last_number(),
+                   role(it.role()),   it.sequence(), it.durable(),
+                   it.loads(),        it.snapshot(), it.snapshot_bytes(),
+                   it.lease(),        it.history(),  reader_.items<std::uint64_t>(it.accepted()),
+                   it.accepted_from()};
   }
   ServerMessage operator()(const flat::Refused& it) { return Refused{text(it.why()), parting(it.code())}; }
   ServerMessage operator()(const flat::Piece& it) {

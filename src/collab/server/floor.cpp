@@ -7,22 +7,43 @@ namespace icome::collab {
 std::optional<Hold> Floor::request(const world::World& world, std::uint32_t holder, Item item) {
   if (obstacle(world, holder, item)) return std::nullopt;
   const auto [place, is_new] = holds_.try_emplace(item, Hold{item, holder, last_fence_ + 1});
-  if (is_new) ++last_fence_;
-  std::erase(waiting_, Waiting{item, holder});
+  if (is_new) {
+    ++last_fence_;
+    ++counts_[holder];
+    note_path(world, place->second);
+  }
+  erase_waiting([&](const Waiting& it) { return it == Waiting{item, holder}; });
   return place->second;
 }
 
 void Floor::wait(std::uint32_t holder, Item item) {
   const Waiting waiting{item, holder};
-  if (std::find(waiting_.begin(), waiting_.end(), waiting) == waiting_.end()) waiting_.push_back(waiting);
+  if (std::find(waiting_.begin(), waiting_.end(), waiting) != waiting_.end()) return;
+  waiting_.push_back(waiting);
+  ++waiting_counts_[holder];
 }
 
 bool Floor::release(std::uint32_t holder, Item item) {
-  std::erase(waiting_, Waiting{item, holder});
+  erase_waiting([&](const Waiting& it) { return it == Waiting{item, holder}; });
   const auto found = holds_.find(item);
   if (found == holds_.end() || found->second.holder != holder) return false;
-  holds_.erase(found);
+  erase(Hold(found->second));
   return true;
+}
+
+void Floor::erase_waiting(const auto& is_erased) {
+  if (waiting_.empty()) return;
+  std::erase_if(waiting_, [&](const Waiting& it) {
+    if (!is_erased(it)) return false;
+    if (--waiting_counts_[it.holder] == 0) waiting_counts_.erase(it.holder);
+    return true;
+  });
+}
+
+void Floor::erase(const Hold& hold) {
+  forget_path(hold);
+  if (--counts_[hold.holder] == 0) counts_.erase(hold.holder);
+  holds_.erase(hold.item);
 }
 
 std::vector<Hold> Floor::release_if(const auto& is_released) {
@@ -31,12 +52,13 @@ std::vector<Hold> Floor::release_if(const auto& is_released) {
     if (is_released(hold)) released.push_back(hold);
   // Tables keep no order, but what is told to clients should not depend on that.
   std::ranges::sort(released, {}, &Hold::fence);
-  for (const Hold& hold : released) holds_.erase(hold.item);
+  for (const Hold& hold : released) erase(hold);
   return released;
 }
 
 std::vector<Hold> Floor::release_all(std::uint32_t holder) {
-  std::erase_if(waiting_, [holder](const Waiting& it) { return it.holder == holder; });
+  erase_waiting([holder](const Waiting& it) { return it.holder == holder; });
+  if (count_of(holder) == 0) return {};
   return release_if([holder](const Hold& hold) { return hold.holder == holder; });
 }
 
@@ -44,13 +66,43 @@ std::optional<Hold> Floor::take_away(Item item) {
   const auto found = holds_.find(item);
   if (found == holds_.end()) return std::nullopt;
   const Hold hold = found->second;
-  holds_.erase(found);
+  erase(hold);
   return hold;
 }
 
 std::vector<Hold> Floor::drop_missing(const world::World& world) {
-  std::erase_if(waiting_, [&](const Waiting& it) { return !is_there(world, it.item); });
+  erase_waiting([&](const Waiting& it) { return !is_there(world, it.item); });
   return release_if([&](const Hold& hold) { return !is_there(world, hold.item); });
+}
+
+void Floor::note_path(const world::World& world, const Hold& hold) {
+  if (hold.item.kind != ItemKind::Object) return;
+  std::vector<world::ObjectId>& path = paths_[hold.item];
+  const world::PhysicalObject* object = world.find(world::ObjectId{hold.item.id});
+  for (world::ObjectId above = object->parent; above; above = object->parent) {
+    below_[above][hold.holder].insert(hold.item);
+    path.push_back(above);
+    object = world.find(above);
+  }
+}
+
+void Floor::forget_path(const Hold& hold) {
+  const auto path = paths_.find(hold.item);
+  if (path == paths_.end()) return;
+  for (const world::ObjectId above : path->second) {
+    auto& holders = below_[above];
+    holders[hold.holder].erase(hold.item);
+    if (holders[hold.holder].empty()) holders.erase(hold.holder);
+    if (holders.empty()) below_.erase(above);
+  }
+  paths_.erase(path);
+}
+
+void Floor::objects_moved(const world::World& world) {
+  below_.clear();
+  paths_.clear();
+  for (const auto& [item, hold] : holds_)
+    if (is_there(world, item)) note_path(world, hold);
 }
 
 std::vector<Hold> Floor::grant_waiting(const world::World& world) {
@@ -66,7 +118,7 @@ std::optional<Obstacle> Floor::obstacle(const world::World& world, std::uint32_t
   if (item.kind == ItemKind::Object) {
     const world::ObjectId object{item.id};
     const auto found = above(world, holder, object);
-    return found ? found : below(world, holder, object);
+    return found ? found : below(holder, object);
   }
   const auto found = holds_.find(item);
   if (found == holds_.end() || found->second.holder == holder) return std::nullopt;
@@ -96,17 +148,13 @@ std::optional<Obstacle> Floor::above(const world::World& world, std::uint32_t ho
   return std::nullopt;
 }
 
-/// The oldest hold of another below the object.
-std::optional<Obstacle> Floor::below(const world::World& world, std::uint32_t holder,
-                                     world::ObjectId object) const {
-  const Hold* oldest = nullptr;
-  for (const auto& [item, hold] : holds_) {
-    if (item.kind != ItemKind::Object || hold.holder == holder) continue;
-    if (oldest != nullptr && oldest->fence < hold.fence) continue;
-    if (world::is_within(world, world::ObjectId{item.id}, object)) oldest = &hold;
-  }
-  if (oldest == nullptr) return std::nullopt;
-  return Obstacle{oldest->item, oldest->holder};
+/// A hold of another below the object.
+std::optional<Obstacle> Floor::below(std::uint32_t holder, world::ObjectId object) const {
+  const auto found = below_.find(object);
+  if (found == below_.end()) return std::nullopt;
+  for (const auto& [other, items] : found->second)
+    if (other != holder) return Obstacle{*items.begin(), other};
+  return std::nullopt;
 }
 
 bool Floor::is_held(std::uint32_t holder, std::uint64_t fence) const {
@@ -114,9 +162,9 @@ bool Floor::is_held(std::uint32_t holder, std::uint64_t fence) const {
       holds_, [&](const auto& it) { return it.second.holder == holder && it.second.fence == fence; });
 }
 
-std::size_t Floor::count_of(std::uint32_t holder) const {
-  return std::size_t(
-      std::ranges::count_if(holds_, [holder](const auto& it) { return it.second.holder == holder; }));
+std::size_t Floor::count_in(const Counts& counts, std::uint32_t holder) {
+  const auto found = counts.find(holder);
+  return found == counts.end() ? 0 : found->second;
 }
 
 }  // namespace icome::collab

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <vector>
 
@@ -52,6 +54,8 @@ class Floor {
   std::optional<Hold> take_away(Item item);
   /// Ends holds of and waiting for things that are no more in the world; gives the former.
   std::vector<Hold> drop_missing(const world::World& world);
+  /// To be called after objects have got other parents.
+  void objects_moved(const world::World& world);
   /// Grants what those who wait longest can have now. Call after each release and after each edit that moves
   /// objects or deletes them.
   std::vector<Hold> grant_waiting(const world::World& world);
@@ -65,17 +69,28 @@ class Floor {
 
   const std::unordered_map<Item, Hold>& holds() const { return holds_; }
   const std::vector<Waiting>& waiting() const { return waiting_; }
-  std::size_t count_of(std::uint32_t holder) const;
+  std::size_t count_of(std::uint32_t holder) const { return count_in(counts_, holder); }
+  std::size_t waiting_of(std::uint32_t holder) const { return count_in(waiting_counts_, holder); }
 
  private:
+  using Counts = std::unordered_map<std::uint32_t, std::size_t>;  // by holder
+  static std::size_t count_in(const Counts& counts, std::uint32_t holder);
   std::optional<Obstacle> above(const world::World& world, std::uint32_t holder,
                                 world::ObjectId object) const;
-  std::optional<Obstacle> below(const world::World& world, std::uint32_t holder,
-                                world::ObjectId object) const;
+  std::optional<Obstacle> below(std::uint32_t holder, world::ObjectId object) const;
   std::vector<Hold> release_if(const auto& is_released);
+  void erase_waiting(const auto& is_erased);
+  void erase(const Hold& hold);
+  void note_path(const world::World& world, const Hold& hold);
+  void forget_path(const Hold& hold);
 
   std::unordered_map<Item, Hold> holds_;
   std::vector<Waiting> waiting_;  // the first has waited longest
+  Counts counts_, waiting_counts_;
+  // So that a request costs the depth of the object and not the number of holds: of each ancestor of held
+  // objects what is held below it, by holder, and of each held object the ancestors that know it.
+  std::unordered_map<world::ObjectId, std::map<std::uint32_t, std::set<Item>>> below_;
+  std::unordered_map<Item, std::vector<world::ObjectId>> paths_;
   std::uint64_t last_fence_;
 };
 

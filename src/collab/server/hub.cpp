@@ -207,19 +207,22 @@ void Hub::ask_to_join(const OpenDesignPointer& design, const Joining& joining) {
     design->joining.push_back(joining);
     return;
   }
+  // Who only reads leaves nothing in the store.
+  if (joining.hello.only_reads) return join(design, joining, {next_guest_++, 0});
   work_.push_back({[this, design, joining](OpLog& log) {
     const auto author = log.author(design->name, joining.hello.client_key);
     return [this, design, joining, author] {
-      const auto found = links_.find(joining.link);
-      if (found == links_.end() || found->second.parting) return;
-      if (!author) return refuse(joining.link, found->second, author.error().message, Parting::Other);
-      join(design, joining, *author);
+      if (author) return join(design, joining, *author);
+      if (const auto found = links_.find(joining.link); found != links_.end())
+        refuse(joining.link, found->second, author.error().message, Parting::Other);
     };
   }});
 }
 
 void Hub::join(const OpenDesignPointer& design, const Joining& joining, const AuthorRow& author) {
-  Link& link = links_.at(joining.link);
+  const auto found = links_.find(joining.link);
+  if (found == links_.end() || found->second.parting) return;
+  Link& link = found->second;
   if (const auto over = end_of_invitation(link))
     return refuse(joining.link, link, *over, Parting::NotAllowed);
   const auto current = rooms_.find(design->name);
@@ -229,10 +232,11 @@ void Hub::join(const OpenDesignPointer& design, const Joining& joining, const Au
   design->links.insert(joining.link);
   link.author = author.author;
   const Hello& hello = joining.hello;
-  design->room->join(joining.link,
-                     {author.author, author.last_number, joining.invitation.role, hello.name, hello.colour,
-                      hello.has_world, hello.have, hello.history, hello.first_pending},
-                     now_);
+  design->room->join(
+      joining.link,
+      {author.author, author.last_number, hello.only_reads ? Role::View : joining.invitation.role, hello.name,
+       hello.colour, hello.has_world, hello.have, hello.history, hello.first_pending},
+      now_);
   note("join", link, hello.program);
   stir(design);
 }
@@ -420,7 +424,10 @@ void Hub::keep_lease(const OpenDesignPointer& design) {
   design->lease_asked = now_;
   work_.push_back({[this, design](OpLog& log) {
     const auto lease = log.lease(design->name, settings_.holder, settings_.design_lease);
-    const bool is_lost = !lease || lease->fence != design->fence;
+    // A log that fails for a while is no other server: appends are fenced, whatever happens.
+    const auto row = lease ? base::Result<std::optional<DesignRow>>() : log.find(design->name);
+    const bool is_anothers = !lease && row && *row && (*row)->holder != settings_.holder;
+    const bool is_lost = lease ? lease->fence != design->fence : is_anothers;
     return [this, design, is_lost] {
       if (is_lost) give_up(design, "Another server has taken this design over.", Parting::ServerStops);
     };

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <utility>
 
+#include "base/utf8.h"
 #include "collab/order/fitted_edit.h"
 #include "collab/order/world_bytes.h"
 #include "collab/protocol/message_bytes.h"
@@ -15,6 +16,24 @@ namespace icome::collab {
 namespace {
 
 constexpr unsigned kFenceShift = 32;  // fences of holds count up from the server's own lease, shifted by this
+
+constexpr std::size_t kMostNameBytes = 100;
+constexpr std::size_t kMostChatBytes = 2'000;
+
+/// The text as one line that can be shown and logged anywhere: whole characters, no controls.
+std::string plain_line(std::string_view text, std::size_t most_bytes) {
+  std::string line;
+  for (std::string valid = base::as_utf8(text), rest = valid; !rest.empty();) {
+    const std::size_t length = base::utf8_length(rest);
+    if (line.size() + length > most_bytes) break;
+    const auto first = static_cast<unsigned char>(rest.front());
+    const bool is_control =
+        first < 0x20 || first == 0x7F || (first == 0xC2 && static_cast<unsigned char>(rest[1]) < 0xA0);
+    line += is_control ? " " : rest.substr(0, length);
+    rest.erase(0, length);
+  }
+  return line;
+}
 
 SharedBytes shared_bytes(const ServerMessage& message) {
   return std::make_shared<const std::string>(to_bytes(message));
@@ -27,7 +46,7 @@ base::Result<RoomStart> read_start(OpLog& log, const DesignRow& design, std::uin
   auto snapshot = log.snapshot(design.name);
   if (!snapshot) return tl::unexpected(snapshot.error());
   RoomStart start{design.name, fence, design.history, std::move(*snapshot), {}};
-  std::uint64_t after = start.snapshot ? start.snapshot->sequence : 0;
+  std::uint64_t after = design.kept_after;
   while (true) {
     auto entries = log.read_from(design.name, after, kReadAtOnce);
     if (!entries) return tl::unexpected(entries.error());
@@ -62,13 +81,18 @@ base::Result<void> Room::replay(const RoomStart& start) {
     world_ = std::move(*world);
     sequence_ = start.snapshot->sequence;
   }
+  const std::uint64_t in_snapshot = sequence_;
+  if (!start.entries.empty()) sequence_ = start.entries.front().sequence - 1;
   for (const LogEntry& entry : start.entries) {
     if (entry.sequence != sequence_ + 1) return base::fail(fmt::format("edit {} is missing.", sequence_ + 1));
     auto edit = world::edit_from_bytes(entry.edit, factory_);
     if (!edit) return tl::unexpected(edit.error());
-    if (const auto done = apply_fitted(world_, *edit); !done) return tl::unexpected(done.error());
+    if (entry.sequence > in_snapshot) {
+      if (const auto done = apply_fitted(world_, *edit); !done) return tl::unexpected(done.error());
+    }
     append_to_tail(entry.author, entry.number, entry.edit, std::move(*edit));
   }
+  if (sequence_ < in_snapshot) return base::fail(fmt::format("edit {} is missing.", sequence_ + 1));
   durable_ = sequence_;
   return {};
 }
@@ -82,7 +106,8 @@ void Room::join(LinkId link, const Arrival& arrival, std::int64_t now) {
   Author& author = authors_[arrival.author];
   author.last_number = std::max(author.last_number, arrival.last_number);
   author.last_word = now;
-  author.person = {arrival.author, arrival.name, arrival.colour, arrival.role, true};
+  author.person = {arrival.author, plain_line(arrival.name, kMostNameBytes), arrival.colour, arrival.role,
+                   true};
   Member& member = members_[link];
   member.who = arrival;
   member.known_number = author.last_number;
@@ -118,7 +143,9 @@ void Room::welcome(Member& member, bool may_resume) {
   } else {
     const SharedSnapshot snapshot = snapshot_for_joining();
     message.loads = true;
-    for (const std::uint64_t number : authors_[who.author].accepted)
+    const Author& author = authors_[who.author];
+    message.accepted_from = author.accepted.empty() ? author.last_number + 1 : author.accepted.front();
+    for (const std::uint64_t number : author.accepted)
       if (number >= who.first_pending) message.accepted.push_back(number);
     message.snapshot = snapshot.sequence;
     message.snapshot_bytes = snapshot.bytes->size();
@@ -149,6 +176,7 @@ void Room::leave(LinkId link) {
   const auto found = members_.find(link);
   if (found == members_.end()) return;
   const std::uint32_t number = found->second.who.author;
+  forget_parts(found->second);
   members_.erase(found);
   const auto is_same = [number](const auto& it) { return it.second.who.author == number; };
   if (std::ranges::any_of(members_, is_same)) return;
@@ -203,6 +231,7 @@ void Room::receive(LinkId link, ClientMessage message, std::int64_t now, std::in
   const auto found = members_.find(link);
   if (found == members_.end() || found->second.parting) return;
   Member& member = found->second;
+  now_ = now;
   authors_[member.who.author].last_word = now;
   const auto handled = [&](auto& it) {
     if constexpr (std::is_same_v<std::decay_t<decltype(it)>, Submit>)
@@ -250,7 +279,9 @@ void Room::handle(Member& member, Select& message) {
     answer.why = obstacle.holder == 0 ? fmt::format("{} is not there any more.", called(world_, message.item))
                                       : fmt::format("{} holds {}.", person_name(obstacle.holder),
                                                     called(world_, obstacle.item));
-    answer.waits = message.waits && obstacle.holder != 0 && floor_.waiting().size() < settings_.most_holds;
+    answer.waits = message.waits && obstacle.holder != 0 &&
+                   floor_.waiting_of(author) < settings_.most_waiting &&
+                   floor_.waiting().size() < settings_.most_holds;
     if (answer.waits) floor_.wait(author, message.item);
   }
   tell(member, answer);
@@ -278,9 +309,16 @@ void Room::handle(Member& member, Present& message) {
   author.presence_version = ++presence_version_;
 }
 
+/// A few lines at once and then one a second: who says more is not heard, and nobody else suffers for it.
 void Room::handle(Member& member, Say& message) {
-  constexpr std::size_t kMostBytes = 2'000;
-  tell_all(Said{member.who.author, message.text.substr(0, kMostBytes)});
+  constexpr std::int64_t kLineTime = 1'000;  // ms
+  constexpr std::int64_t kLinesAtOnce = 10;
+  member.said_until = std::max(member.said_until, now_) + kLineTime;
+  if (member.said_until > now_ + kLinesAtOnce * kLineTime) {
+    member.said_until -= kLineTime;
+    return;
+  }
+  tell_all(Said{member.who.author, plain_line(message.text, kMostChatBytes)});
 }
 
 void Room::handle(Member& member, Alive& message) { tell(member, Living{message.echo}); }

@@ -28,6 +28,8 @@ struct RoomSettings {
   std::size_t merge_from = 256;  // edits that a client lags behind before drags are merged
   std::size_t most_waiting_bytes = 1U << 20U;  // of all but edits; who lags more is sent away
   std::size_t most_edit_bytes = 256U << 20U;   // of one edit of a client
+  std::size_t most_parts_bytes = 512U << 20U;  // of unfinished edits of all clients
+  std::size_t most_waiting = 1'000;            // things that one person may wait for
   std::size_t most_holds = 10'000;             // of one client
   std::size_t piece_bytes = 1U << 18U;         // of a snapshot
 };
@@ -38,7 +40,7 @@ struct RoomStart {
   std::uint64_t fence = 0;                // of the server's lease of the design; at most 2^31
   std::uint64_t history = 0;              // DesignRow::history
   std::optional<Snapshot> snapshot = {};  // world_to_bytes; nothing: the design began empty
-  std::vector<LogEntry> entries = {};     // all that are kept: some before the snapshot, for those who come back
+  std::vector<LogEntry> entries = {};  // all that are kept: some before the snapshot, for those who come back
 };
 
 /// Reads what a room is made of; `fence` is that of the reader's lease.
@@ -128,7 +130,8 @@ class Room {
     std::size_t waiting_bytes = 0;
     std::uint64_t presence_heard = 0;
     std::int64_t presence_next = 0;
-    std::string parts;  // of an edit that comes in parts
+    std::int64_t said_until = 0;  // ms: what it has said counts until then
+    std::string parts;            // of an edit that comes in parts
     std::optional<std::string> parting;
   };
   struct Author {
@@ -164,6 +167,7 @@ class Room {
   void welcome(Member& member, bool may_resume);
   SharedSnapshot snapshot_for_joining();
   bool is_whole(Member& member, Submit& message);
+  void forget_parts(Member& member);
   struct Refusal {
     std::string why;
     std::uint32_t whose = 0;
@@ -204,6 +208,8 @@ class Room {
   std::unordered_map<Item, Change> changed_;
   std::vector<LogEntry> entries_;
   std::uint64_t presence_version_ = 0;
+  std::int64_t now_ = 0;         // ms, of the last message
+  std::size_t parts_bytes_ = 0;  // of unfinished edits of all members
   std::uint64_t refused_ = 0;
 };
 

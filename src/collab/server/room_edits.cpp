@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "base/utf8.h"
 #include "collab/order/fitted_edit.h"
 #include "collab/protocol/message_bytes.h"
 #include "collab/server/room.h"
@@ -44,6 +45,37 @@ struct FindWrongId {
 
 constexpr std::size_t kMostAccepted = 8'192;  // numbers that are remembered of an author
 
+constexpr std::size_t kMostThingNameBytes = 4'096;
+
+/// The first name that is too long, or no text.
+struct FindBadName {
+  static bool is_bad(const std::string& name) {
+    return name.size() > kMostThingNameBytes || base::as_utf8(name) != name;
+  }
+  bool operator()(const world::CreateObject& it) const { return is_bad(it.object.name); }
+  bool operator()(const world::RenameObject& it) const { return is_bad(it.name); }
+  bool operator()(const world::CreateMaterial& it) const { return is_bad(it.material.name); }
+  bool operator()(const world::ChangeMaterial& it) const { return is_bad(it.material.name); }
+  bool operator()(const world::CreateTexture& it) const { return is_bad(it.texture.name); }
+  bool operator()(const world::CreateScene& it) const { return is_bad(it.name); }
+  bool operator()(const world::RenameScene& it) const { return is_bad(it.name); }
+  bool operator()(const world::EditGroup& it) const {
+    return std::ranges::any_of(it.edits,
+                               [this](const world::Edit& edit) { return std::visit(*this, edit.what); });
+  }
+  template <typename Kind>
+  bool operator()(const Kind&) const {
+    return false;
+  }
+};
+
+/// Does an edit put objects under other parents?
+bool gives_parents(const world::Edit& edit) {
+  if (const auto* const group = std::get_if<world::EditGroup>(&edit.what))
+    return std::ranges::any_of(group->edits, gives_parents);
+  return std::holds_alternative<world::MoveObject>(edit.what);
+}
+
 bool is_step_of_drag(const world::Edit& edit) {
   return std::holds_alternative<world::PlaceObject>(edit.what) ||
          std::holds_alternative<world::MoveVertices>(edit.what);
@@ -66,20 +98,32 @@ bool Room::is_whole(Member& member, Submit& message) {
     return false;
   }
   member.parts += message.edit;
-  if (message.total > settings_.most_edit_bytes || member.parts.size() > message.total) {
+  parts_bytes_ += message.edit.size();
+  if (message.total > settings_.most_edit_bytes || member.parts.size() > message.total ||
+      parts_bytes_ > settings_.most_parts_bytes) {
+    forget_parts(member);
     part(member, "The parts of an edit do not fit together, or are too many.", Parting::Broken);
     return false;
   }
   if (member.parts.size() < message.total) return false;
-  message.edit = std::exchange(member.parts, {});
+  message.edit = std::move(member.parts);
+  parts_bytes_ -= message.edit.size();
+  member.parts = {};
   return true;
 }
 
+void Room::forget_parts(Member& member) {
+  parts_bytes_ -= member.parts.size();
+  member.parts = {};
+}
+
 void Room::handle(Member& member, Submit& message, std::int64_t at) {
-  if (!is_whole(member, message)) return;
+  const bool may_change = member.who.role >= Role::Edit;  // of who may not, nothing is kept
+  if (may_change && !is_whole(member, message)) return;
   Author& author = authors_[member.who.author];
   if (message.number <= author.last_number) return;  // sent again after a connection was lost
   author.last_number = message.number;
+  if (!may_change) return reject(member, message, "You may look at this design, but not change it.", 0);
   auto edit = world::edit_from_bytes(message.edit, factory_);
   if (!edit) return reject(member, message, edit.error().message, 0);
   if (const auto why = refusal(member, message, *edit)) return reject(member, message, why->why, why->whose);
@@ -94,7 +138,8 @@ void Room::reject(Member& member, const Submit& message, const std::string& why,
 std::optional<Room::Refusal> Room::refusal(const Member& member, const Submit& message,
                                            const world::Edit& edit) const {
   const std::uint32_t author = member.who.author;
-  if (member.who.role < Role::Edit) return Refusal{"You may look at this design, but not change it."};
+  if (std::visit(FindBadName{}, edit.what))
+    return Refusal{fmt::format("A name is UTF-8 and at most {} bytes long.", kMostThingNameBytes)};
   if (std::visit(FindWrongId{world_, author}, edit.what))
     return Refusal{"The edit makes a new thing with somebody else's id."};
   if (const auto obstacle = floor_.obstacle(world_, author, needs_of(edit))) {
@@ -157,13 +202,13 @@ void Room::append_to_tail(std::uint32_t author, std::uint64_t number, std::strin
 
 /// Deleted things are held no longer, and what was moved or deleted may make room for those who wait.
 void Room::floor_follows(const world::Edit& edit) {
+  const bool moves = gives_parents(edit);
+  if (moves) floor_.objects_moved(world_);
   const std::vector<Touched> touched = touched_by(edit);
   const bool deletes = std::ranges::any_of(touched, [&](const Touched& it) {
     return it.aspect == Aspect::Existence && !is_there(world_, it.item);
   });
   if (deletes) tell_free(floor_.drop_missing(world_));
-  const bool moves =
-      std::ranges::any_of(touched, [](const Touched& it) { return it.aspect == Aspect::Place; });
   if ((deletes || moves) && !floor_.waiting().empty()) grant_waiting();
 }
 

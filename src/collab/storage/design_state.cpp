@@ -49,6 +49,7 @@ DesignRow row_of(const std::string& design, const DesignState& state) {
   return {.name = design,
           .sequence = state.sequence,
           .snapshot_sequence = state.snapshot_sequence,
+          .kept_after = state.kept_after,
           .bytes = state.bytes,
           .history = state.history,
           .holder = state.holder,

@@ -98,13 +98,13 @@ base::Result<void> make_tables(const SqliteDatabase& database) {
 
 /// SQLite does not wait for other connections here, as it does elsewhere: several programs may begin at once.
 base::Result<std::string> write_ahead_mode(const SqliteDatabase& database) {
-  constexpr int kMostTries = 1'000;
-  constexpr std::chrono::milliseconds kPause{5};
+  constexpr int kMostWalTries = 1'000;
+  constexpr std::chrono::milliseconds kWalPause{5};
   for (int i = 0;; ++i) {
     auto mode = database.text("PRAGMA journal_mode = WAL");
     const bool is_busy = !mode && (sqlite3_errcode(database.handle()) & 0xff) == SQLITE_BUSY;
-    if (!is_busy || i == kMostTries) return mode;
-    std::this_thread::sleep_for(kPause);
+    if (!is_busy || i == kMostWalTries) return mode;
+    std::this_thread::sleep_for(kWalPause);
   }
 }
 

@@ -139,7 +139,10 @@ TEST(Floor, IsTheThesissWhateverIsAskedInWhateverOrder) {
       case 2: {  // an object is moved, as far as the floor lets it
         const ObjectId parent = random.index(4) == 0 ? ObjectId{} : objects[random.index(objects.size())];
         const world::Edit edit = world::MoveObject{id, parent, 0, world::Affine3::Identity()};
-        if (!floor.obstacle(it.world, holder, needs_of(edit)) && world::apply(it.world, edit)) ++moved;
+        if (!floor.obstacle(it.world, holder, needs_of(edit)) && world::apply(it.world, edit)) {
+          floor.objects_moved(it.world);
+          ++moved;
+        }
         break;
       }
       default: {

@@ -47,6 +47,9 @@ SimulatedWork::SimulatedWork(std::uint64_t seed, const Weather& weather, const T
 
 void SimulatedWork::make_client(Client& client, bool same_key) {
   if (!same_key) client.key = fmt::format("key {}", random_.bits());
+  // Its next life may give numbers again that were refused in this one.
+  if (client.talk)
+    std::erase_if(refused_, [&](const auto& it) { return it.first == client.talk->replica().author(); });
   DesignAddress address{"server", 1, kDesign, token_, ""};
   client.talk =
       std::make_unique<Conversation>(address, ClientIdentity{client.key, "Ann", 1, "test"}, factory_);
@@ -171,7 +174,11 @@ void SimulatedWork::deliver(Client& client) {
 
 void SimulatedWork::hear(Client& client) {
   for (const Seen& seen : client.talk->take_seen()) {
-    if (std::holds_alternative<Dropped>(seen)) ++dropped_;
+    if (const auto* const dropped = std::get_if<Dropped>(&seen)) {
+      ++dropped_;
+      if (dropped->why.find("nobody knows") == std::string::npos)
+        refused_.emplace(client.talk->replica().author(), dropped->number);
+    }
     if (const auto* const durable = std::get_if<SeenDurable>(&seen))
       for (const std::uint64_t number : durable->own)
         acknowledged_.emplace(client.talk->replica().author(), number);
@@ -277,6 +284,10 @@ std::string SimulatedWork::check_rest() {
   for (const auto& [author, number] : acknowledged_)
     if (!log_.appended().contains({author, number}))
       return fmt::format("Edit {} of author {} was acknowledged and is lost.", number, author);
+  for (const auto& edit : refused_)
+    if (log_.appended().contains(edit))
+      return fmt::format("Edit {} of author {} was told to be refused and is there.", edit.second,
+                         edit.first);
   for (Client& client : clients_) client.talk->leave();
   for (int i = 0; i < 300; ++i) {
     now_ += kStep;

@@ -112,7 +112,7 @@ class SimulatedWork {
   LinkId next_link_ = 1;
   std::int64_t next_tick_ = 0;
   std::string token_;
-  std::set<std::pair<std::uint32_t, std::uint64_t>> acknowledged_;  // author and number
+  std::set<std::pair<std::uint32_t, std::uint64_t>> acknowledged_, refused_;  // author and number
   std::uint64_t restarts_ = 0, dropped_ = 0;
   std::string fault_;
 };
