@@ -3,6 +3,7 @@ import json
 import os
 import pathlib
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
@@ -160,6 +161,29 @@ class LinkTest(SharedTest):
         self.fails("info", link.split("#")[0], code=1, saying="icome://")
         self.fails("info", link[:-3], code=1, saying="fingerprint")
 
+    def test_no_message_shows_the_secret_of_a_link(self):
+        link = self.serve().invite()
+        for arguments in (("shot", link, link), ("convert", link, self.folder / "x.unknown"), ("info", link + "&x=1"),
+                          ("edit", "new", "--apply", "/dev/null", "--out", link), ("info", link.replace("icome", "ICOME", 1) + "x")):
+            done = run(*arguments)
+            self.assertNotEqual(done.returncode, 0, arguments)
+            self.assertNotRegex(done.stdout + done.stderr, SECRET)
+
+    def test_the_secret_may_come_by_the_environment(self):
+        link = self.serve().invite()
+        token = link.split("token=")[1].split("&")[0]
+        done = run("info", link.replace(f"token={token}&", ""), "--json", ICOME_TOKEN=token)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_who_only_reads_leaves_nothing_in_the_store(self):
+        server = self.serve()
+        link = server.invite()
+        for _ in range(3):
+            self.info(link)
+        server.end()
+        with sqlite3.connect(self.store / "designs.sqlite") as store:
+            self.assertEqual(store.execute("SELECT count(*) FROM authors").fetchone(), (0,))
+
     def test_a_server_that_is_not_there_is_told(self):
         server = self.serve()
         link = server.invite()
@@ -196,6 +220,25 @@ class EditTest(SharedTest):
         self.assertEqual(report["sequence"], 3)
         self.assertEqual([it["line"] for it in report["refused"]], [4, 5])
         self.assertEqual(self.names(link), ["box"])
+
+    def test_an_interrupted_script_tells_what_is_done(self):
+        server = self.serve()
+        link = server.invite()
+        script = self.write("long.jsonl", "\n".join(line(op="create", shape="box", name=f"b{i}") for i in range(50_000)))
+        editor = subprocess.Popen([PROGRAM, "edit", link, "--apply", str(script), "--json"], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, text=True)
+        watcher = self.watch(link)
+        watcher.until(lambda told: told["event"] == "edit")
+        editor.send_signal(signal.SIGINT)
+        out, error = editor.communicate(timeout=60)
+        self.assertEqual(editor.returncode, 130, error)
+        report = json.loads(out)
+        self.assertGreater(report["applied"], 0)
+        self.assertEqual(report["refused"], [])
+        self.assertIn("stays done", error)
+        there = len(self.names(link))
+        self.assertLessEqual(report["applied"], there)
+        self.assertLessEqual(there, report["applied"] + report.get("unknown", 0))
 
     def test_a_design_goes_up_and_down(self):
         link = self.serve().invite()
@@ -258,7 +301,7 @@ class EditTest(SharedTest):
             self.assertIn('Ann holds "table"', it["why"])
         seen = watcher.until(lambda told: told["event"] == "edit")
         self.assertEqual(seen["kind"], "translate")
-        self.assertEqual(seen["items"][0]["name"], '"box"')
+        self.assertEqual(seen["items"][0]["name"], "box")
         self.assertEqual(holder.end()[0], 0)
         freed = watcher.until(lambda told: told["event"] == "floor")
         self.assertIsNone(freed["holder"])

@@ -78,6 +78,7 @@ class RemoteScript {
     for (const EditError& error : outcome.errors) refused_.push_back({error.line, error.message});
     base::Result<void> done = base::fail("interrupted");
     if (!outcome.stopped) done = wait_until_durable(connection_, status);
+    if (!done) hear_the_rest();
     note(talk_.take_seen());
     unknown_ = talk_.replica().unacknowledged();
     if (sequence_ == 0) sequence_ = talk_.replica().sequence();
@@ -108,6 +109,14 @@ class RemoteScript {
   std::vector<collab::Seen> take_seen() { return std::exchange(seen_, {}); }
 
  private:
+  /// What is under way is heard of for a moment, so that little is unknown.
+  void hear_the_rest() {
+    constexpr std::chrono::milliseconds kMoment{2'000};
+    const auto begin = std::chrono::steady_clock::now();
+    const auto is_over = [&] { return std::chrono::steady_clock::now() - begin > kMoment; };
+    (void)connection_.work_until([&] { return talk_.replica().unacknowledged() == 0; }, is_over, kMoment);
+  }
+
   /// Waits for answers of the server only where the next line may depend on them.
   base::Result<interaction::Performed> perform_one(const Value& command, std::size_t line) {
     const Value* const name = command.fields() ? interaction::field(*command.fields(), "op") : nullptr;

@@ -55,7 +55,7 @@ class MessageWriter {
                name = text(it.name), program = text(it.program);
     return as_content(flat::CreateHello(builder_, it.least_version, it.most_version, token, design, key, name,
                                         it.colour, program, it.has_world, it.have, it.history,
-                                        it.first_pending));
+                                        it.first_pending, it.only_reads));
   }
   WrittenContent operator()(const Want& it) {
     return as_content(flat::CreateWant(builder_, it.snapshot, it.offset, it.bytes));

@@ -17,6 +17,7 @@ std::vector<ClientMessage> client_messages() {
   hello.have = 7;
   hello.history = 9;
   hello.first_pending = 3;
+  hello.only_reads = true;
   const SharedPose pose{{1.0, 2.0, 3.0}, base::Quaternion(0.5, 0.5, 0.5, 0.5)};
   return {hello,
           Want{4, 5, 6},
@@ -32,7 +33,7 @@ std::vector<ClientMessage> client_messages() {
 }
 
 std::vector<ServerMessage> server_messages() {
-  return {Welcome{1, 2, 3, Role::Own, 4, 5, true, 6, 7, 8, 9, {10, 11}},
+  return {Welcome{1, 2, 3, Role::Own, 4, 5, true, 6, 7, 8, 9, {10, 11}, 12},
           Refused{"no", Parting::NotAllowed},
           Piece{1, 2, 3, "bytes"},
           Ordered{5, 5, 2, 1, "edit", true},
@@ -82,6 +83,10 @@ TEST(MessageBytes, KeepsTheFieldsApart) {
   EXPECT_EQ(at.snapshot_bytes, 7U);
   EXPECT_EQ(at.history, 9U);
   EXPECT_EQ(at.accepted, (std::vector<std::uint64_t>{10, 11}));
+  EXPECT_EQ(at.accepted_from, 12U);
+  const auto hello = client_message(to_bytes(client_messages().front())).value();
+  EXPECT_TRUE(std::get<Hello>(hello).only_reads);
+  EXPECT_EQ(std::get<Hello>(hello).first_pending, 3U);
 }
 
 TEST(MessageBytes, RefusesWhatTheOtherSideSays) {
