@@ -36,13 +36,14 @@ constexpr const char* kProgramExamples =
     "  icome stats anova times.csv --response time --factor interface\n"
     "                                              whether a difference between interfaces is chance\n"
     "  icome study new pointing.toml               begin a user study\n"
+    "  icome serve                                 several people shape one design: prints a link\n"
     "\n"
     "The window needs a display. Without one, icome touch touches a design and icome shot draws it.\n"
     "\n"
     "icome touch --help tells all about touching, icome csg --help about solids, icome info --help and\n"
     "icome convert --help about designs, icome edit --help about changing them, icome shot --help about\n"
     "pictures, icome techniques --help about ways of interaction, icome stats --help about statistics,\n"
-    "icome study --help about user studies.";
+    "icome study --help about user studies, icome serve --help about working together.";
 
 constexpr const char* kTouchSummary =
     "Touch models: by a simulated hand in real time, or along a path from a file";
@@ -173,7 +174,7 @@ constexpr const char* kCsgExamples =
 
 constexpr const char* kDesignFileHelp =
     "A design: VRML 2.0 (.wrl, .wrz), glTF (.glb, .gltf), OBJ, PLY, STL, OFF, OpenSCAD's .csg (from glTF on "
-    "also packed as .xz) or ICOME's own .icome";
+    "also packed as .xz) or ICOME's own .icome; or the link of a design on a server";
 
 constexpr const char* kDesignOutHelp =
     "The file to write; its ending says the format: VRML 2.0 (.wrl), glTF (.glb, .gltf), OBJ, PLY, STL, "
@@ -239,6 +240,9 @@ constexpr const char* kEditExamples =
     "  icome edit new --apply table.jsonl --out table.wrl\n"
     "  icome edit table.wrl --apply longer-legs.jsonl --out table.wrl --json\n"
     "  icome edit lamp.recording.icome --replay lamp.recording --out lamp.icome\n"
+    "  icome edit 'icome://...' --apply longer-legs.jsonl\n"
+    "                                              a design on a server, while others work on it\n"
+    "  icome edit 'icome://...' --watch --json     what people do to it, a line each, until Ctrl-C\n"
     "  icome edit --help-ops                       all operations with their parameters\n"
     "  icome edit --help-ops extrude               one of them\n"
     "\n"
@@ -267,6 +271,16 @@ constexpr const char* kEditExamples =
     "  skipped in reading and lost in writing), notes (what operations came to: {line, op, text}), seconds\n"
     "  (for the operations). With --help-ops: operations, a list of {name, title, group, summary,\n"
     "  parameters}.\n"
+    "\n"
+    "A design on a server (its link as IN, without --out) is changed where it is, line by line, each an "
+    "action of its\n"
+    "own; lines that are wrong or refused are told, and the others done. It ends when all is durable.\n"
+    "{\"op\": \"select\", \"object\": \"leg\"} asks for an object for oneself, \"deselect\" gives it back. "
+    "JSON of such a run:\n"
+    "applied, refused (a list of {line, why}), sequence (of the design's last edit by it), and unknown where "
+    "the server\n"
+    "was gone before it said what became of so many. ICOME_TOKEN in the environment may hold the link's "
+    "secret.\n"
     "\n"
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
 

@@ -2,6 +2,7 @@
 import json
 import os
 import pathlib
+import shutil
 import signal
 import sqlite3
 import subprocess
@@ -72,6 +73,13 @@ class ServeTest(SharedTest):
     def test_a_store_is_served_by_one_server(self):
         self.serve()
         self.fails("serve", "--store", self.store, "--listen", "127.0.0.1:0", code=1, saying=str(self.store))
+
+    def test_a_store_that_is_taken_away_ends_it(self):
+        server = self.serve()
+        shutil.rmtree(self.store)
+        _, error = server.process.communicate(timeout=60)
+        self.assertEqual(server.process.returncode, 1)
+        self.assertIn(str(self.store), error)
 
     def test_without_tls_it_serves_this_machine_only(self):
         self.fails("serve", "--store", self.store, "--listen", "0.0.0.0:0", "--insecure", code=1, saying="0.0.0.0")

@@ -17,7 +17,8 @@ struct Harness {
   std::vector<std::string> (*seeds)();  // good input of our own making, to begin with
 };
 
-/// All harnesses: of files, of shapes and edits, of texts that people write, and of devices over the network.
+/// All harnesses: of files, of shapes and edits, of texts that people write, of devices over the
+/// network, and of designs that are shared.
 std::vector<Harness> harnesses();
 
 // Parts of that list.
@@ -26,6 +27,7 @@ std::span<const Harness> design_harnesses();
 std::span<const Harness> text_harnesses();
 std::span<const Harness> vrpn_harnesses();
 std::span<const Harness> haply_harnesses();
+std::span<const Harness> collab_harnesses();
 
 /// Ends the program, telling what was promised, unless that holds.
 void require(bool holds, const char* promise);

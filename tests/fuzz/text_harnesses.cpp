@@ -49,7 +49,10 @@ void run_formula(std::string_view bytes) {
 
 void run_script(std::string_view bytes) {
   interaction::OperationRunner runner{world::World()};
-  const apps::EditOutcome outcome = apps::perform_script(runner, bytes, true, [](double) { return true; });
+  const auto perform = [&](const interaction::Value& command, std::size_t) {
+    return runner.perform(command);
+  };
+  const apps::EditOutcome outcome = apps::perform_script(perform, bytes, true, [](double) { return true; });
   for (const apps::EditError& error : outcome.errors)
     require(!error.message.empty(), "an error says what it is");
 }

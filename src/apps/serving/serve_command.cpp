@@ -92,7 +92,7 @@ int run_serve_designs(const ServingOptions& options) {
   auto server = collab::DesignServer::create(*settings);
   if (!server) return tell(server.error().message), kFailed;
   if (const auto said = say_where(**server, options.json); !said) return tell(said.error().message), kFailed;
-  (*server)->run(interrupted);
+  if (const auto served = (*server)->run(interrupted); !served) return tell(served.error().message), kFailed;
   return 0;
 }
 

@@ -137,10 +137,13 @@ base::Result<void> DesignServer::start(const ServeSettings& settings, std::uniqu
   return {};
 }
 
-void DesignServer::run(const std::function<bool()>& ends) {
+base::Result<void> DesignServer::run(const std::function<bool()>& ends) {
   ends_ = ends;
   loop_->post([this] { tick(); });
   loop_->run();
+  if (!is_homeless_) return {};
+  return base::fail(folder_.string() +
+                    ": the store was taken away while it was served. Put it back, or restore a backup.");
 }
 
 // ---- what happens
@@ -217,7 +220,8 @@ void DesignServer::tick() {
   const std::int64_t now = steady_milliseconds();
   is_busy_ = busy_frames_ > kBusyFrames;
   busy_frames_ = 0;
-  if (!stops_ && ends_()) {
+  is_homeless_ = is_homeless_ || !lock_.is_at_its_path();
+  if (!stops_ && (ends_() || is_homeless_)) {
     stops_ = true;
     stop_until_ = now + kMostStopping;
     hub_.stop(now);

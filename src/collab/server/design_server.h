@@ -46,8 +46,9 @@ class DesignServer final : private LinkEvents {
   const std::filesystem::path& store() const { return folder_; }
 
   /// Serves until `ends` (asked some times a second) says so; then tells the clients, and saves what they
-  /// have sent.
-  void run(const std::function<bool()>& ends);
+  /// have sent. Fails where the folder of the store is taken away meanwhile, as nothing would be kept any
+  /// more.
+  base::Result<void> run(const std::function<bool()>& ends);
 
  private:
   DesignServer(io::OpenFile lock, TokenSigner signer, HubSettings settings,
@@ -80,6 +81,7 @@ class DesignServer final : private LinkEvents {
   bool log_works_ = false;
   bool is_stirred_ = false;
   bool stops_ = false;
+  bool is_homeless_ = false;                        // the store is not at its place any more
   std::int64_t stop_until_ = 0;                     // ms
   std::int64_t started_ = 0;                        // ms
   std::unordered_map<LinkId, std::int64_t> links_;  // when each was last sent something, ms

@@ -41,7 +41,7 @@ class DesignServerTest : public testing::Test {
     ASSERT_TRUE(server) << server.error().message;
     server_ = std::move(*server);
     ends_ = false;
-    thread_ = std::thread([this] { server_->run([this] { return ends_.load(); }); });
+    thread_ = std::thread([this] { EXPECT_TRUE(server_->run([this] { return ends_.load(); })); });
   }
   void stop() {
     ends_ = true;
