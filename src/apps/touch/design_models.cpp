@@ -7,9 +7,9 @@
 #include <set>
 #include <utility>
 
-#include "apps/remote/remote_design.h"
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
+#include "apps/remote/remote_design.h"
 #include "apps/stopwatch.h"
 #include "apps/touch/design_eyes.h"
 #include "apps/touch/design_motions.h"
