@@ -7,6 +7,7 @@
 
 #include "collab/order/world_bytes.h"
 #include "collab/protocol/message_bytes.h"
+#include "collab/protocol/plain_line.h"
 
 namespace icome::collab {
 namespace {
@@ -152,7 +153,8 @@ void Hub::refuse(LinkId id, Link& link, const std::string& why, Parting code) {
 
 void Hub::take_hello(LinkId id, Link& link, Hello hello) {
   link.is_checked = true;
-  link.name = hello.name = hello.name.substr(0, kMostNameBytes);
+  link.name = hello.name = plain_line(hello.name, kMostNameBytes);
+  hello.program = plain_line(hello.program, kMostNameBytes);
   if (stops_) return refuse(id, link, "The server stops.", Parting::ServerStops);
   if (hello.least_version > kProtocolVersion || hello.most_version < kProtocolVersion)
     return refuse(

@@ -6,10 +6,10 @@
 #include <cassert>
 #include <utility>
 
-#include "base/utf8.h"
 #include "collab/order/fitted_edit.h"
 #include "collab/order/world_bytes.h"
 #include "collab/protocol/message_bytes.h"
+#include "collab/protocol/plain_line.h"
 #include "world/edit/edit_bytes.h"
 
 namespace icome::collab {
@@ -17,23 +17,8 @@ namespace {
 
 constexpr unsigned kFenceShift = 32;  // fences of holds count up from the server's own lease, shifted by this
 
-constexpr std::size_t kMostNameBytes = 100;
+constexpr std::size_t kMostPersonBytes = 100;
 constexpr std::size_t kMostChatBytes = 2'000;
-
-/// The text as one line that can be shown and logged anywhere: whole characters, no controls.
-std::string plain_line(std::string_view text, std::size_t most_bytes) {
-  std::string line;
-  for (std::string valid = base::as_utf8(text), rest = valid; !rest.empty();) {
-    const std::size_t length = base::utf8_length(rest);
-    if (line.size() + length > most_bytes) break;
-    const auto first = static_cast<unsigned char>(rest.front());
-    const bool is_control =
-        first < 0x20 || first == 0x7F || (first == 0xC2 && static_cast<unsigned char>(rest[1]) < 0xA0);
-    line += is_control ? " " : rest.substr(0, length);
-    rest.erase(0, length);
-  }
-  return line;
-}
 
 SharedBytes shared_bytes(const ServerMessage& message) {
   return std::make_shared<const std::string>(to_bytes(message));
@@ -106,7 +91,7 @@ void Room::join(LinkId link, const Arrival& arrival, std::int64_t now) {
   Author& author = authors_[arrival.author];
   author.last_number = std::max(author.last_number, arrival.last_number);
   author.last_word = now;
-  author.person = {arrival.author, plain_line(arrival.name, kMostNameBytes), arrival.colour, arrival.role,
+  author.person = {arrival.author, plain_line(arrival.name, kMostPersonBytes), arrival.colour, arrival.role,
                    true};
   Member& member = members_[link];
   member.who = arrival;

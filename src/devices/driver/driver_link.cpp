@@ -138,7 +138,7 @@ void DriverLink::pass(const PointerState& reading, std::int64_t now) {
     ramp_ = 0.0;
   }
   watch_stillness(reading, given_, now);
-  trouble(kSilent, false);
+  trouble(Trouble::Silent, false);
   last_ = reading;
   last_time_ = now;
   Reading& next = readings_.write_slot();
@@ -172,7 +172,7 @@ void DriverLink::watch_refusals(bool refused, std::int64_t now) {
     window_begin_ = now;
     window_readings_ = window_refused_ = 0;
   }
-  trouble(kRefuses, now < refused_until_);
+  trouble(Trouble::Refuses, now < refused_until_);
 }
 
 /// Readings that stay the same while the device pushes are none: a hand always moves a little. Once they are
@@ -183,14 +183,14 @@ void DriverLink::watch_stillness(const PointerState& reading, const Vector3& giv
                     reading.velocity == last_.velocity &&
                     reading.orientation.coeffs() == last_.orientation.coeffs();
   const bool in_a_row = last_time_ != 0 && now - last_time_ <= kSilence;
-  const bool stood_still = (troubles_.load(std::memory_order_relaxed) & kStill) != 0;
+  const bool stood_still = (troubles_.load(std::memory_order_relaxed) & Trouble::Still) != 0;
   if (!same || (!stood_still && (!in_a_row || given.norm() < kPushes))) moved_time_ = now;
-  trouble(kStill, now - moved_time_ > kFrozen || (stood_still && same));
+  trouble(Trouble::Still, now - moved_time_ > kFrozen || (stood_still && same));
 }
 
 /// Notes that a trouble lasts, or that it is over.
 void DriverLink::trouble(Trouble which, bool lasts) {
-  constexpr unsigned kTakesForce = kWithheld | kSilent | kStill;
+  constexpr unsigned kTakesForce = Trouble::Withheld | Trouble::Silent | Trouble::Still;
   const unsigned before = lasts ? troubles_.fetch_or(which) : troubles_.fetch_and(~unsigned(which));
   if (!lasts && (before & which & kTakesForce) != 0 && ((before & ~unsigned(which)) & kTakesForce) == 0)
     pushes_since_.store(base::steady_nanoseconds(), std::memory_order_relaxed);
@@ -202,14 +202,14 @@ void DriverLink::withhold(const std::string& why) {
     if (why == withheld_why_) return;
     withheld_why_ = why;
   }
-  trouble(kWithheld, !why.empty());
+  trouble(Trouble::Withheld, !why.empty());
 }
 
 bool DriverLink::may_push(std::int64_t now) {
   const std::int64_t silence = last_time_ == 0 ? 0 : now - last_time_;
-  if (silence > kTellSilence) trouble(kSilent, true);
+  if (silence > kTellSilence) trouble(Trouble::Silent, true);
   const unsigned troubles = troubles_.load(std::memory_order_relaxed);
-  return silence <= kSilence && (troubles & (kWithheld | kStill)) == 0;
+  return silence <= kSilence && (troubles & (Trouble::Withheld | Trouble::Still)) == 0;
 }
 
 void DriverLink::take_force_away() {
@@ -270,18 +270,18 @@ std::string DriverLink::condition() const {
   };
   const auto add_no_force = [&](const std::string& why) { add(std::string(kNoForce) + why); };
   if (!withheld_why_.empty()) add_no_force(withheld_why_);
-  if ((troubles & kSilent) != 0)
+  if ((troubles & Trouble::Silent) != 0)
     add_no_force(
         "it tells nothing new of its place; see that it is switched on and that nothing is in its way");
-  if ((troubles & kStill) != 0)
+  if ((troubles & Trouble::Still) != 0)
     add_no_force(
         "what it tells of its place stays the same while it pushes; move it, or else unplug it and plug it "
         "in "
         "again");
-  if ((troubles & (kWithheld | kSilent | kStill)) == 0 && pushes_since != 0 &&
+  if ((troubles & (Trouble::Withheld | Trouble::Silent | Trouble::Still)) == 0 && pushes_since != 0 &&
       base::steady_nanoseconds() - pushes_since < kTellReturn)
     add("It gives forces again, which grow from none");
-  if ((troubles & kRefuses) != 0)
+  if ((troubles & Trouble::Refuses) != 0)
     add(
         fmt::format("Some of its readings make no sense and are left out (times so far: {}); look at its "
                     "cable and what is "

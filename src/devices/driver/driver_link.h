@@ -90,7 +90,7 @@ class DriverLink {
     std::int64_t time = 0;            // ns, 0: none was asked for yet
   };
   /// Reasons of the link itself for which the device may not push, and for which readings are told of.
-  enum Trouble : unsigned { kWithheld = 1, kSilent = 2, kStill = 4, kRefuses = 8 };
+  enum Trouble : unsigned { Withheld = 1, Silent = 2, Still = 4, Refuses = 8 };
   bool makes_sense(const PointerState& reading);
   bool is_spike(const PointerState& reading, std::int64_t now);
   bool is_taken(const PointerState& reading, std::int64_t now);

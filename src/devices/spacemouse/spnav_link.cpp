@@ -3,6 +3,11 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spnav.h>
+// The headers of X11, which it takes in, define words that others have as names.
+#undef Bool
+#undef None
+#undef Status
+#undef Success
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>

@@ -129,8 +129,10 @@ class DevicePanelTest : public DesktopTest {
 };
 
 TEST_F(DevicePanelTest, ListsWhatIsThereAndSaysWhyTheRestIsNot) {
-  EXPECT_TRUE(says("Looking for devices"));
-  EXPECT_FALSE(button("Refresh")->isEnabled());
+  if (!says("2 devices are there.")) {  // the search may have ended already
+    EXPECT_TRUE(says("Looking for devices"));
+    EXPECT_FALSE(button("Refresh")->isEnabled());
+  }
   ASSERT_TRUE(until([&] { return says("2 devices are there."); }));
   ASSERT_TRUE(until([&] { return says("an arm of a test"); }));
   EXPECT_TRUE(says("libHD.so is missing: install OpenHaptics"));

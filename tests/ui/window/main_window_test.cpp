@@ -348,17 +348,21 @@ TEST_F(MainWindowTest, ANameThatIsBeingTypedInTheTreeIsSavedToo) {
 }
 
 TEST_F(MainWindowTest, NoNameOfADesignWidensItOrIsTakenForMarkup) {
+  // What stands there when a thing with a short name is selected is as wide as it gets.
+  auto* hint = window_->findChild<QLabel*>("status.hint");
+  session().select({add("short")});
+  ASSERT_TRUE(until([&] { return hint->text().startsWith("short"); }));
   QCoreApplication::processEvents();
   const int before = window_->minimumSizeHint().width();
   const std::string name = "<h1>big</h1>" + std::string(2000, 'w');
   const auto id = add(name.c_str());
   session().select({id});
-  auto* hint = window_->findChild<QLabel*>("status.hint");
   ASSERT_TRUE(until([&] { return hint->text().startsWith("<h1>big</h1>ww"); }));
   EXPECT_EQ(hint->textFormat(), Qt::PlainText);
   EXPECT_LT(hint->text().size(), 100);
   QCoreApplication::processEvents();
-  EXPECT_EQ(window_->minimumSizeHint().width(), before);
+  // Numbers of the load, which come and go, may take some pixels more; the name would take thousands.
+  EXPECT_LT(window_->minimumSizeHint().width(), before + 50);
   ASSERT_TRUE(until([&] { return action("edit.undo")->isEnabled(); }));
   EXPECT_LE(action("edit.undo")->text().size(), 81);
   EXPECT_FALSE(action("edit.undo")->toolTip().contains("<h1>"));
