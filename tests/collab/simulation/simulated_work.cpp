@@ -57,7 +57,6 @@ void SimulatedWork::make_client(Client& client, bool same_key) {
   client.link.reset();
   client.up = client.down = {};
   client.next_try = now_ + std::int64_t(random_.index(200));
-  ++client.generation;
 }
 
 void SimulatedWork::start_server() {

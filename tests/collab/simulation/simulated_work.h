@@ -79,7 +79,6 @@ class SimulatedWork {
     std::int64_t next_try = 0;
     std::unique_ptr<world::RandomEdits> edits;
     Wire up, down;
-    std::uint64_t generation = 0;
   };
 
   void step(bool is_rough);
