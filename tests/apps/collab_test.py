@@ -293,6 +293,18 @@ class EditTest(SharedTest):
         server = self.serve(listen=server.listen)
         self.assertEqual(len(self.names(link)), 201)
 
+    def test_an_owner_takes_away_what_another_holds(self):
+        server = self.serve()
+        link = server.invite()
+        self.edit(link, BOX)
+        holder = self.watch(link, script=line(op="select", object="box") + "\n", name="Ann")
+        holder.until(lambda told: told.get("event") == "state" and told["state"] == "live")
+        take = line(op="take-away", object="box")
+        self.assertIn("own", self.edit(server.invite("table", "edit"), take, code=1)["refused"][0]["why"])
+        self.edit(link, take, line(op="select", object="box"), line(op="move", objects="box", by=[1, 0, 0]))
+        told = holder.until(lambda told: told["event"] == "floor" and told["holder"] is None)
+        self.assertIsNotNone(told["taken_by"])
+
     def test_what_somebody_holds_nobody_else_changes(self):
         server = self.serve()
         link = server.invite()

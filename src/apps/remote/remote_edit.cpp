@@ -120,8 +120,7 @@ class RemoteScript {
   /// Waits for answers of the server only where the next line may depend on them.
   base::Result<interaction::Performed> perform_one(const Value& command, std::size_t line) {
     const Value* const name = command.fields() ? interaction::field(*command.fields(), "op") : nullptr;
-    if (name && name->text() && (*name->text() == "select" || *name->text() == "deselect"))
-      return hold(*command.fields(), *name->text() == "select");
+    if (name && name->text() && is_of_floor(*name->text())) return hold(*command.fields(), *name->text());
     constexpr std::size_t kMostPending = 250;  // so that the server's other clients are heard, too
     const std::size_t most = talk_.replica().pending() >= kMostPending ? kMostPending / 2 : kMostPending;
     const auto has_room = [&] { return talk_.replica().pending() <= most; };
@@ -135,8 +134,12 @@ class RemoteScript {
     return done;
   }
 
-  /// Asks for an object, and waits for the answer; or gives it back.
-  base::Result<interaction::Performed> hold(const Value::Fields& fields, bool takes) {
+  static bool is_of_floor(const std::string& operation) {
+    return operation == "select" || operation == "deselect" || operation == "take-away";
+  }
+
+  /// Asks for an object, and waits for the answer; or gives it back, or takes it away from another.
+  base::Result<interaction::Performed> hold(const Value::Fields& fields, const std::string& operation) {
     const Value* const object = interaction::field(fields, "object");
     if (!object || !object->text())
       return base::fail("the object is missing: {\"op\": \"select\", \"object\": \"leg\"}");
@@ -147,8 +150,10 @@ class RemoteScript {
     const auto id = interaction::named_object(target_.world(), *object->text());
     if (!id) return tl::unexpected(id.error());
     const collab::Item item = collab::item_of(*id);
-    if (!takes) {
-      talk_.deselect(item);
+    if (operation == "take-away" && talk_.role() < collab::Role::Own)
+      return base::fail("take-away: only who has a link with the role own may take things away.");
+    if (operation != "select") {
+      operation == "deselect" ? talk_.deselect(item) : talk_.take_away(item);
       return interaction::Performed{nullptr, {*id}};
     }
     std::optional<collab::Selected> answer;

@@ -178,6 +178,7 @@ void Conversation::hear(Welcome& message) {
 /// then.
 base::Result<void> Conversation::notice_restored(std::uint32_t author) {
   seen_.emplace_back(SeenState{ConversationState::Joining, kRestored});
+  replica_.begin_history();
   if (author == replica_.author()) return {};
   auto dropped = replica_.give_up_pending(kRestored);
   if (!dropped) return tl::unexpected(dropped.error());

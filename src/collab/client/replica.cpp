@@ -38,16 +38,11 @@ void Replica::set_author(std::uint32_t author, std::uint64_t last_number) {
   last_number_ = std::max(last_number_, last_number);
 }
 
-base::Result<world::Edit> Replica::change(const world::Edit& edit) {
-  auto inverse = apply_fitted(world_, edit);
-  if (inverse && changed_) changed_(edit);
-  return inverse;
-}
+base::Result<world::Edit> Replica::change(const world::Edit& edit) { return apply_fitted(world_, edit); }
 
 base::Result<void> Replica::take_back(const world::Edit& inverse) {
   const auto done = world::apply(world_, inverse);
   if (!done) return differs(done.error().message);
-  if (changed_) changed_(inverse);
   return {};
 }
 
@@ -269,6 +264,15 @@ base::Result<std::vector<Dropped>> Replica::give_up_pending(const std::string& w
   if (auto done = take_pending_back(); !done) return tl::unexpected(done.error());
   while (!pending_.empty()) dropped.push_back(drop(0, why, 0));
   return dropped;
+}
+
+void Replica::begin_history() {
+  durable_ = 0;
+  has_base_ = false;
+  own_.clear();
+  done_.clear();
+  undone_.clear();
+  others_.clear();
 }
 
 base::Result<void> Replica::rewind() {

@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -33,11 +32,7 @@ struct Dropped {
 /// lost.
 class Replica {
  public:
-  /// Called with each edit that the world has undergone, also those that take others back.
-  using Changed = std::function<void(const world::Edit& edit)>;
-
   explicit Replica(world::GeometryFactory factory = {}) : factory_(std::move(factory)) {}
-  void on_change(Changed changed) { changed_ = std::move(changed); }
 
   const world::World& world() const { return world_; }
   /// Sequence of the last ordered edit in it.
@@ -101,6 +96,9 @@ class Replica {
   base::Result<std::vector<Dropped>> settle(std::uint64_t last_number, std::uint64_t accepted_from);
   /// Own edits that are not ordered yet are given up; the world is without them.
   base::Result<std::vector<Dropped>> give_up_pending(const std::string& why);
+  /// The design is of another history from now on: what was durable or can be undone of the old one says
+  /// nothing of it. Own pending edits stay. begin() follows.
+  void begin_history();
   /// The connection is lost: goes back to what is durable. Own edits behind it are pending and unsent again.
   base::Result<void> rewind();
 
@@ -144,7 +142,6 @@ class Replica {
   base::Result<void> take_pending_back(std::size_t from = 0);
   void redo_pending(std::size_t from = 0);
   bool merges_into_last(const world::Edit& edit) const;
-  base::Result<void> order_own(std::uint64_t sequence, bool has_gap);
   void note_others(const world::Edit& edit, std::uint64_t sequence, std::uint32_t author);
   std::optional<Touch> later_touch(const world::Edit& edit, std::uint64_t since) const;
   base::Result<std::uint64_t> turn(std::vector<Action>& from, std::vector<Action>& to,
@@ -154,7 +151,6 @@ class Replica {
   Dropped drop(std::size_t index, const std::string& why, std::uint32_t whose);
 
   world::GeometryFactory factory_;
-  Changed changed_;
   world::World world_;
   std::uint32_t author_ = 0;
   std::uint64_t last_number_ = 0;

@@ -142,6 +142,17 @@ TEST(Replica, KnowsOwnEditsThatASnapshotHolds) {
   EXPECT_EQ(it.replica.durable({12}), std::vector<std::uint64_t>{mine});
 }
 
+TEST(Replica, TakesNothingOfAnotherHistoryForDurable) {
+  Copy it;
+  it.replica.begin_history();
+  ASSERT_TRUE(it.replica.begin(it.start, 2, {}));
+  EXPECT_FALSE(it.replica.can_resume());
+  const std::uint64_t mine = it.replica.perform(world::PlaceObject{it.leg, at(1, 0, 0)}, "Move leg").value();
+  ASSERT_TRUE(it.replica.accepted({mine, 3}));
+  EXPECT_TRUE(it.replica.durable({2}).empty()) << "10 was durable in the old history";
+  EXPECT_EQ(it.replica.durable({3}), std::vector<std::uint64_t>{mine});
+}
+
 TEST(Replica, RefusesAnOrderThatCannotBeTheServers) {
   Copy it;
   EXPECT_FALSE(it.replica.ordered(ordered(12, kAnnElsewhere, world::PlaceObject{it.leg, at(2, 0, 0)})))
