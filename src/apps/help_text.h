@@ -276,6 +276,7 @@ constexpr const char* kEditExamples =
     "action of its\n"
     "own; lines that are wrong or refused are told, and the others done. It ends when all is durable.\n"
     "{\"op\": \"select\", \"object\": \"leg\"} asks for an object for oneself, \"deselect\" gives it back. "
+    "\"take-away\" takes it from another (role own). "
     "JSON of such a run:\n"
     "applied, refused (a list of {line, why}), sequence (of the design's last edit by it), and unknown where "
     "the server\n"
