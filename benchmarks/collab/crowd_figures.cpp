@@ -15,7 +15,7 @@
 #include <sstream>
 
 #include "base/clock.h"
-#include "collab/client/connection.h"
+#include "collab/client/joining.h"
 #include "collab/link/link_loop.h"
 #include "collab/protocol/address.h"
 #include "collab/protocol/message_bytes.h"

@@ -21,6 +21,7 @@ struct SavedWork {
   std::filesystem::path design = {};  // the file; empty: there is none yet
   std::uint64_t number = 0;           // posts up to this one are in it; a `whole` of the same post, too
   bool in_part = false;               // the format cannot hold all: the work counts as unsaved
+  bool by_server = false;             // a server keeps this world, whatever is done to it: no journal does
   /// Not null: the `whole` of the same post is in no file but this work, recovered from a session that
   /// crashed, which goes when it is kept anew.
   std::shared_ptr<ClaimedWork> recovered = nullptr;

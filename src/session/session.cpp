@@ -34,7 +34,9 @@ SessionParts::SessionParts(SessionSettings given,
       pointers_so_far(hands.pointers()),
       pointers(hands.pointers()),
       felt({haptics::HapticScene::compile({}), std::make_shared<const TouchedNames>()}),
-      seen(std::make_shared<const render::RenderScene>()) {
+      seen(std::make_shared<const render::RenderScene>()),
+      addresses(settings.autosave_folder.empty() ? std::filesystem::path()
+                                                 : settings.autosave_folder.parent_path() / "addresses") {
   for (std::size_t i = 0; i < pointers.size(); ++i) pointers[i].number = i + 1;
 }
 
@@ -92,6 +94,7 @@ Session::Session(std::unique_ptr<SessionParts> parts)
       view_(*parts_),
       stage_(*parts_),
       hands_(*parts_),
+      sharing_(*parts_),
       techniques_(*this, *parts_) {}
 Session::~Session() = default;
 
@@ -103,6 +106,7 @@ void SessionParts::tell(SessionEvent::Kind kind, std::string text, std::vector<s
 void SessionParts::take_in() {
   queue.pump();
   take_files();
+  take_shared();
   take_followers();
   hands.update();
   close_gone();

@@ -14,6 +14,7 @@
 #include "session/session_files.h"
 #include "session/session_hands.h"
 #include "session/session_history.h"
+#include "session/session_sharing.h"
 #include "session/session_stage.h"
 #include "session/session_techniques.h"
 #include "session/session_view.h"
@@ -53,6 +54,10 @@ struct SessionEvent {
     AutosaveResumed,
     DeviceLost,
     DeviceBack,
+    ServerLost,   // of a shared design: one works on, and what is done is sent later
+    ServerBack,
+    SharingEnds,  // the design stays here, as a new one
+    Dropped,      // something that one did to a shared design did not come to be
     NotAsItIs,  // details: things that are not seen, not felt, or not as they are
     Notice,     // such as that the servo has no real-time priority
   };
@@ -85,6 +90,8 @@ class Session {
   /// Calls `listener` on main after the world has changed: by these changes, or, when null, to another one.
   /// Several may listen, as long as the session lives; they are called in the order of asking.
   void on_change(std::function<void(const world::Changes*)> listener);
+  /// While the listeners of on_change() are called: is it for what others did to a shared design?
+  bool follows_others() const;
   /// Calls `listener` on main after the selection has changed.
   void on_selection(std::function<void()> listener);
 
@@ -108,6 +115,8 @@ class Session {
   const SessionStage& stage() const { return stage_; }
   SessionHands& hands() { return hands_; }
   const SessionHands& hands() const { return hands_; }
+  SessionSharing& sharing() { return sharing_; }
+  const SessionSharing& sharing() const { return sharing_; }
   SessionTechniques& techniques() { return techniques_; }
   const SessionTechniques& techniques() const { return techniques_; }
 
@@ -122,6 +131,7 @@ class Session {
   SessionView view_;
   SessionStage stage_;
   SessionHands hands_;
+  SessionSharing sharing_;
   SessionTechniques techniques_;
 };
 

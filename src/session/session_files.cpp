@@ -25,6 +25,7 @@ std::string shown_name(const std::filesystem::path& design) {
 /// Takes in a design that was read, or the reason why there is none.
 void SessionParts::take_opened(DesignLoader::Outcome& outcome) {
   const std::shared_ptr<ClaimedWork> work = std::exchange(recovering, nullptr);
+  const std::shared_ptr<JoinedDesign> joined = std::exchange(joining, nullptr);
   const std::string name = shown_name(outcome.design);
   if (!outcome.result) {
     tell(SessionEvent::Kind::OpenCancelled, fmt::format("{} was not opened: it was cancelled.", name));
@@ -33,8 +34,13 @@ void SessionParts::take_opened(DesignLoader::Outcome& outcome) {
   } else {
     files::LoadedDesign& loaded = **outcome.result;
     std::vector<std::string> details = sentences(loaded.remarks, outcome.design);
-    saver.has_read(outcome.design, loaded.stamp);
-    open_world(std::move(loaded.world), outcome.design, work);
+    if (joined) {
+      open_world(std::move(loaded.world), {});
+      begin_sharing(std::move(joined->connection));
+    } else {
+      saver.has_read(outcome.design, loaded.stamp);
+      open_world(std::move(loaded.world), outcome.design, work);
+    }
     if (work) {
       tell(SessionEvent::Kind::Recovered,
            fmt::format("{}: your unsaved work was recovered. Save it to keep it.", name), std::move(details));
@@ -80,6 +86,7 @@ void SessionParts::take_saved(DesignSaver::Outcome& outcome) {
   tell_of_saved(outcome, missing);
   // It is of a design that is not open any more.
   if (outcome.number < opened_number) return;
+  if (shared) return;  // a copy: the design is on the server
   path = outcome.design;
   left_out = std::move(missing);
   if (left_out.empty()) saved_revision = revision;
@@ -114,6 +121,7 @@ void SessionFiles::make_new() {
 
 void SessionFiles::open(const std::filesystem::path& design) {
   parts_.recovering.reset();
+  parts_.joining.reset();
   parts_.loader.open(design);
 }
 
@@ -139,12 +147,14 @@ bool SessionFiles::saving() const { return parts_.saver.busy(); }
 const std::filesystem::path& SessionFiles::path() const { return parts_.path; }
 
 bool SessionFiles::modified() const {
+  if (parts_.shared) return parts_.history.trying() || parts_.shared->talk().replica().unacknowledged() > 0;
   return parts_.revisions.now() != parts_.saved_revision || !parts_.left_out.empty();
 }
 
 const std::vector<std::string>& SessionFiles::left_out() const { return parts_.left_out; }
 
 void SessionFiles::close() {
+  parts_.leave_shared();
   if (parts_.journal) parts_.journal->close();
 }
 
@@ -162,6 +172,7 @@ void SessionFiles::recover(const RecoverableWork& work) {
   parts_.loader.start(work.design, [work = *claimed](const files::DesignReadOptions& options) {
     return work->read(options);
   });
+  parts_.joining.reset();
   parts_.recovering = *claimed;
 }
 

@@ -29,7 +29,13 @@ class SessionHistory {
   void keep_tried();
   base::Result<void> undo();
   base::Result<void> redo();
-  const world::History& actions() const;
+  bool can_undo() const;
+  bool can_redo() const;
+  /// The names of the next actions to undo or redo; empty when there are none.
+  std::string undo_name() const;
+  std::string redo_name() const;
+  /// Is the last action only tried out?
+  bool trying() const;
 
  private:
   SessionParts& parts_;

@@ -23,6 +23,10 @@
 #include "session/hands/user_interaction.h"
 #include "session/revisions.h"
 #include "session/session.h"
+#include "session/sharing/people_marks.h"
+#include "session/sharing/recent_addresses.h"
+#include "session/sharing/shared_design.h"
+#include "session/sharing/soft_places.h"
 #include "session/storage/autosave_journal.h"
 #include "session/storage/claimed_work.h"
 #include "session/storage/design_loader.h"
@@ -59,6 +63,11 @@ struct ClosingDevice {
   std::unique_ptr<BackgroundTask<bool>> task = nullptr;  // null: the servo may still use it
 };
 
+/// A connection that the thread which joined hands over.
+struct JoinedDesign {
+  std::unique_ptr<collab::Connection> connection = nullptr;
+};
+
 /// The parts of a session. All of them are main's, but for those of the session's other threads.
 struct SessionParts {
   SessionParts(SessionSettings settings, std::vector<std::unique_ptr<devices::PointerDevice>> devices);
@@ -73,9 +82,25 @@ struct SessionParts {
                   const std::shared_ptr<ClaimedWork>& recovered = nullptr);
   void tell_change(const world::Changes* changes);
   void notify_change(const world::Changes* changes);
-  void notify_selection() const;
+  void notify_selection();
   void show(world::SceneId scene);
   world::EditSink sink();
+
+  // session_sharing.cpp
+  void begin_sharing(std::unique_ptr<collab::Connection> connection);
+  void leave_shared();
+  void close_left();
+  void take_shared();
+  void mirror(bool own);
+  void take_another_world();
+  void post_mirrored(world::EditGroup group, bool own);
+  base::Result<void> perform_for_all(const world::Edit& edit, const std::string& name, bool goes_on);
+  base::Result<void> turn_for_all(bool back);
+  base::Result<void> submit_tried();
+  void hold_selection();
+  void present();
+  void renew_people();
+  void follow_person();
 
   // session_files.cpp
   void take_opened(DesignLoader::Outcome& outcome);
@@ -204,6 +229,18 @@ struct SessionParts {
   std::shared_ptr<const std::vector<std::string>> listened_to;
   DesignLoader loader;
   DesignSaver saver;
+  std::shared_ptr<JoinedDesign> joining = nullptr;  // not null: it is what the loader reads
+  std::unique_ptr<SharedDesign> shared = nullptr;   // null: the design is on no server
+  std::vector<std::unique_ptr<BackgroundTask<bool>>> leaving;  // connections, in good order
+  RecentAddresses addresses;
+  bool follows_others = false;  // the listeners are told of what others did
+  SoftPlaces places;            // of others
+  std::vector<PersonMark> people = {};                  // as they are drawn
+  std::vector<render::SceneOutline> held_outlines = {};  // around what others hold
+  bool holds_are_new = false;
+  std::optional<std::uint32_t> followed = {};  // author
+  std::int64_t presented_at = 0;               // ns
+  collab::Whereabouts presented = {};
   // Last, as their threads use the rest.
   std::unique_ptr<AutosaveJournal> journal;  // null: nothing is kept against crashes
   std::vector<std::unique_ptr<Follower>> followers;

@@ -39,6 +39,7 @@ void add_marks(render::SceneOverlay& overlay, const render::SceneOverlay& more) 
   overlay.balls.insert(overlay.balls.end(), more.balls.begin(), more.balls.end());
   overlay.arrows.insert(overlay.arrows.end(), more.arrows.begin(), more.arrows.end());
   overlay.lines.insert(overlay.lines.end(), more.lines.begin(), more.lines.end());
+  overlay.panels.insert(overlay.panels.end(), more.panels.begin(), more.panels.end());
 }
 
 }  // namespace
@@ -52,6 +53,7 @@ void SessionParts::move_user() {
   for (const auto& it : news.devices)
     tell(it.lost ? SessionEvent::Kind::DeviceLost : SessionEvent::Kind::DeviceBack, it.text);
   if (news.home) go_home();
+  follow_person();
   for (std::size_t i = 0; i < hands.pointers(); ++i) hands.carry(i, user.stage_from_device());
   follow_view_scale(dt);
   if (!hand_is_aimed) park();
@@ -153,6 +155,7 @@ void SessionParts::mark_part(const std::optional<MarkedPart>& marked) {
 }
 
 void SessionParts::publish_wish() {
+  renew_people();
   renew_outline();
   renew_handles();
   renew_symbols();
@@ -166,13 +169,15 @@ void SessionParts::publish_wish() {
   drawn_view = now;
   DisplayWish wish = look;
   wish.view = now;
-  wish.look.selected = outlined;
+  wish.look.outlines = held_outlines;
+  if (!outlined.empty()) wish.look.outlines.push_back({outlined, look.selection});
   add_marks(wish.look.overlay, symbols);
   add_marks(wish.look.overlay, part_outlines.overlay(marked_part));
+  add_marks(wish.look.overlay, people_marks(people, now));
   if (mouse_hand && !hand_is_aimed) wish.aside = mouse();
   add_marks(wish.look.overlay, workspace_marks(workspaces, look.workspace));
   wish.in_sight = workspace_ends(workspaces, now);
-  if (shaping) add_handles(handles, wish.look.selection_width, wish.look.overlay);
+  if (shaping) add_handles(handles, wish.look.outline_width, wish.look.overlay);
   wish.miniature = marks ? miniature : std::nullopt;
   if (marks) add_marks(wish.look.overlay, *marks);
   display.wish(wish);
@@ -194,11 +199,20 @@ DisplayFeed& SessionView::display() { return parts_.display; }
 
 const interaction::View& SessionView::now() const { return parts_.user.view(); }
 
-void SessionView::set(const interaction::View& view) { parts_.user.set_view(view); }
+void SessionView::set(const interaction::View& view) {
+  parts_.followed.reset();
+  parts_.user.set_view(view);
+}
 
-void SessionView::fly_to(const interaction::View& view) { parts_.user.fly_to(view); }
+void SessionView::fly_to(const interaction::View& view) {
+  parts_.followed.reset();
+  parts_.user.fly_to(view);
+}
 
-void SessionView::home() { parts_.go_home(); }
+void SessionView::home() {
+  parts_.followed.reset();
+  parts_.go_home();
+}
 
 void SessionView::set_aspect(double aspect) {
   if (aspect > 0.0 && std::isfinite(aspect)) parts_.aspect = aspect;

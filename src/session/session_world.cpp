@@ -4,7 +4,7 @@
 
 #include "interaction/object_move.h"
 #include "session/session_parts.h"
-#include "session/shared_edit.h"
+#include "world/edit/shared_edit.h"
 #include "world/motion.h"
 
 namespace icome::session {
@@ -16,12 +16,12 @@ world::EditSink SessionParts::sink() {
   return world::EditSink([this](const world::Edit& edit) -> base::Result<world::Edit> {
     if (!queue.has_room())
       return base::fail("The program is too far behind with your edits: wait a moment, then do it again.");
-    auto shared = perform_shared(world, edit);
-    if (!shared) return tl::unexpected(shared.error());
+    auto done = world::perform_shared(world, edit);
+    if (!done) return tl::unexpected(done.error());
     performed.emplace();
     performed->edit = std::make_shared<const world::Edit>(edit);
-    performed->for_replicas = std::make_shared<const world::Edit>(std::move(shared->for_replicas));
-    return std::move(shared->inverse);
+    performed->for_replicas = std::make_shared<const world::Edit>(std::move(done->for_replicas));
+    return std::move(done->inverse);
   });
 }
 
@@ -55,7 +55,8 @@ void SessionParts::notify_change(const world::Changes* changes) {
   for (std::size_t i = 0; i < change_listeners.size(); ++i) change_listeners[i](changes);
 }
 
-void SessionParts::notify_selection() const {
+void SessionParts::notify_selection() {
+  hold_selection();
   for (std::size_t i = 0; i < selection_listeners.size(); ++i) selection_listeners[i]();
 }
 
@@ -72,6 +73,7 @@ void SessionParts::open_world(world::World opened, const std::filesystem::path& 
                               const std::shared_ptr<ClaimedWork>& recovered) {
   world = std::move(opened);
   history = {};
+  leave_shared();
   ids = world::IdSource(0, world.next_number(0));
   revisions.restart();
   constexpr std::uint64_t kNever = 0;  // what was recovered is in no file
@@ -101,6 +103,8 @@ void Session::on_change(std::function<void(const world::Changes*)> listener) {
 void Session::on_selection(std::function<void()> listener) {
   if (listener) parts_->selection_listeners.push_back(std::move(listener));
 }
+
+bool Session::follows_others() const { return parts_->follows_others; }
 
 const world::World& Session::world() const { return parts_->world; }
 

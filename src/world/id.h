@@ -39,6 +39,7 @@ class IdSource {
 
   /// `first` is the first number to give; World::next_number knows it for an existing design.
   explicit IdSource(std::uint32_t author = 0, std::uint64_t first = 1) : author_(author), next_(first) {}
+  std::uint32_t author() const { return author_; }
 
   template <typename AnyId>
   AnyId next() {

@@ -6,7 +6,7 @@
 #include <new>
 #include <semaphore>
 
-#include "session/shared_edit.h"
+#include "world/edit/shared_edit.h"
 #include "world/random_edits.h"
 
 namespace icome::session {
@@ -72,7 +72,7 @@ struct Main {
   EditedQueue queue;
 
   bool perform(const world::Edit& edit, world::Edit* inverse = nullptr) {
-    auto done = perform_shared(world, edit);
+    auto done = world::perform_shared(world, edit);
     if (!done) return false;
     Edited edited;
     edited.edit = std::make_shared<const world::Edit>(edit);
@@ -269,7 +269,7 @@ TEST(SharedEdit, GroupsDoTheSameToReplicasStepByStep) {
   const world::Edit group =
       world::EditGroup{{world::MoveVertices{id, {0}, {{5.0, 0.0, 0.0}}}, world::CopyGeometry{copy, id},
                         world::EditGroup{{world::MoveVertices{id, {1}, {{7.0, 0.0, 0.0}}}}}}};
-  const auto done = perform_shared(main, group);
+  const auto done = world::perform_shared(main, group);
   ASSERT_TRUE(done);
   world::applied(replica, done->for_replicas);
   EXPECT_EQ(world::hash(replica), world::hash(main));
@@ -286,7 +286,7 @@ TEST(SharedEdit, AGroupThatIsRefusedChangesNothing) {
   const auto id = ids.next<world::GeometryId>();
   world::applied(main, world::CreateGeometry{id, world::one_triangle()});
   const std::uint64_t before = world::hash(main);
-  EXPECT_FALSE(perform_shared(main, world::EditGroup{{world::MoveVertices{id, {0}, {{5.0, 0.0, 0.0}}},
+  EXPECT_FALSE(world::perform_shared(main, world::EditGroup{{world::MoveVertices{id, {0}, {{5.0, 0.0, 0.0}}},
                                                       world::MoveVertices{id, {9}, {{7.0, 0.0, 0.0}}}}}));
   EXPECT_EQ(world::hash(main), before);
 }

@@ -111,10 +111,10 @@ TEST_F(MovingTest, AHeldBoxSlidesAlongAWallAndOneUndoBringsItHome) {
   expect_no_overlap();
   hand_->hold_buttons(0);
   run_until(*session_, [&] { return !session_->hands().holds(0); });
-  EXPECT_EQ(session_->history().actions().undo_name(), "Move box");
+  EXPECT_EQ(session_->history().undo_name(), "Move box");
   ASSERT_TRUE(session_->history().undo());
   EXPECT_EQ(box_at(), Vector3::Zero());
-  EXPECT_EQ(session_->history().actions().undo_name(), "Add wall");
+  EXPECT_EQ(session_->history().undo_name(), "Add wall");
 }
 
 TEST_F(MovingTest, GoesThroughWallsIfThatIsWanted) {
@@ -199,10 +199,10 @@ TEST(ObjectDrag, KeepsToALineAndTellsWhatStopsIt) {
   EXPECT_NEAR(place().x(), 0.1, 1e-5);
   EXPECT_EQ(place().y(), 0.0) << "it does not slide off the line";
   EXPECT_EQ(drag.words(*session), "Stopped at wall");
-  const auto revision = session->history().actions().undo_name();
+  const auto revision = session->history().undo_name();
   ASSERT_TRUE(drag.to(*session, {.offset = Vector3(0.0, 0.3, 0.0)}));
   EXPECT_EQ(drag.words(*session), "");
-  EXPECT_EQ(session->history().actions().undo_name(), "Move box");
+  EXPECT_EQ(session->history().undo_name(), "Move box");
   EXPECT_FALSE(drag.to(*session, {.offset = Vector3(NAN, 0.0, 0.0)}));
   EXPECT_LT((place() - Vector3(0.0, 0.3, 0.0)).norm(), 1e-12);
   ASSERT_TRUE(session->history().undo());

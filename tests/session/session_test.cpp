@@ -47,7 +47,7 @@ TEST(Session, ShowsAndFeelsWhatIsEdited) {
   session->settle();
   EXPECT_EQ(session->view().drawn()->object_count(), 0U);
   EXPECT_FALSE(session->history().undo());
-  EXPECT_EQ(session->history().actions().redo_name(), "Add box");
+  EXPECT_EQ(session->history().redo_name(), "Add box");
 }
 
 TEST(Session, KnowsWhetherClosingLosesSomething) {
@@ -75,7 +75,7 @@ TEST(Session, RefusesWhatMakesNoSense) {
   EXPECT_FALSE(session->history().extend(world::PlaceObject{id, at(1.0, 0.0, 0.0)}));
   ASSERT_TRUE(session->history().redo());
   EXPECT_EQ(world::hash(session->world()), before);
-  EXPECT_EQ(session->history().actions().undo_name(), "Add box");
+  EXPECT_EQ(session->history().undo_name(), "Add box");
   session->hands().aim({nan, 0.0, 0.0});
   session->settle();
   EXPECT_TRUE(session->hands().pointer(0).tip.allFinite());

@@ -22,14 +22,14 @@ TEST(TryOut, IsSeenAndFeltAndLeavesNoTrace) {
   session->settle();
   EXPECT_EQ(session->view().drawn()->bounds().center(), Vector3(0.0, 2.0, -3.0));
   EXPECT_TRUE(session->stage().pick({Vector3(0.1, 2.2, 0.0), -Vector3::UnitZ()}));
-  EXPECT_EQ(session->history().actions().undo_name(), "Try box");
-  EXPECT_FALSE(session->history().actions().can_redo());
+  EXPECT_EQ(session->history().undo_name(), "Try box");
+  EXPECT_FALSE(session->history().can_redo());
   ASSERT_TRUE(session->history().take_back());
   session->settle();
   EXPECT_EQ(world::hash(session->world()), before);
   EXPECT_EQ(session->view().drawn()->bounds().center(), Vector3(0.0, 0.0, -3.0));
-  EXPECT_EQ(session->history().actions().undo_name(), "Add box");
-  EXPECT_EQ(session->history().actions().redo_name(), "Move box");
+  EXPECT_EQ(session->history().undo_name(), "Add box");
+  EXPECT_EQ(session->history().redo_name(), "Move box");
   EXPECT_FALSE(session->history().take_back());
   ASSERT_TRUE(session->history().redo());
   EXPECT_EQ(world::world_from_object(session->world(), box).translation(), Vector3(1.0, 0.0, -3.0));
@@ -51,7 +51,7 @@ TEST(TryOut, AnotherTakesItsPlaceInOneMoment) {
   EXPECT_EQ(session->view().drawn()->bounds().center(), Vector3(0.0, 2.0, -3.0));
   ASSERT_TRUE(session->history().take_back());
   EXPECT_EQ(places.back(), Vector3(0.0, 0.0, -3.0));
-  EXPECT_EQ(session->history().actions().undo_name(), "Add box");
+  EXPECT_EQ(session->history().undo_name(), "Add box");
 }
 
 TEST(TryOut, WhatIsRefusedLeavesNothingTried) {
@@ -64,8 +64,8 @@ TEST(TryOut, WhatIsRefusedLeavesNothingTried) {
   EXPECT_EQ(world::hash(session->world()), before);
   session->settle();
   EXPECT_EQ(session->view().drawn()->bounds().center(), Vector3(0.0, 0.0, -3.0));
-  EXPECT_FALSE(session->history().actions().trying());
-  EXPECT_EQ(session->history().actions().undo_name(), "Add box");
+  EXPECT_FALSE(session->history().trying());
+  EXPECT_EQ(session->history().undo_name(), "Add box");
 }
 
 TEST(TryOut, WhatIsDoneAfterItKeepsIt) {
@@ -78,18 +78,18 @@ TEST(TryOut, WhatIsDoneAfterItKeepsIt) {
   ASSERT_TRUE(session->history().perform(world::RenameObject{box, "crate"}, "Rename box"));
   EXPECT_FALSE(session->history().take_back());
   ASSERT_TRUE(session->history().undo());
-  EXPECT_EQ(session->history().actions().undo_name(), "Try box");
+  EXPECT_EQ(session->history().undo_name(), "Try box");
   tried();
   ASSERT_TRUE(session->history().extend(PlaceObject{box, at(0.0, 3.0, -3.0)}));
-  EXPECT_FALSE(session->history().actions().trying());
+  EXPECT_FALSE(session->history().trying());
   tried();
   ASSERT_TRUE(session->history().undo());
-  EXPECT_FALSE(session->history().actions().trying());
-  EXPECT_EQ(session->history().actions().redo_name(), "Try box");
+  EXPECT_FALSE(session->history().trying());
+  EXPECT_EQ(session->history().redo_name(), "Try box");
   tried();
   session->history().keep_tried();
   EXPECT_FALSE(session->history().take_back());
-  EXPECT_EQ(session->history().actions().undo_name(), "Try box");
+  EXPECT_EQ(session->history().undo_name(), "Try box");
   tried();
   session->files().make_new();
   EXPECT_FALSE(session->history().take_back());

@@ -131,7 +131,7 @@ TEST_F(MainThreadTest, IsHardlyEverLongAtWorkWhileThingsAreDragged) {
   for (const char* name : {"Plinth", "Scan", "Brass-solid", "Rubber-knot"}) {
     drag(place_of(name));
     expect_few_long_calls(name);
-    ASSERT_TRUE(until([&] { return session().history().actions().can_undo(); }))
+    ASSERT_TRUE(until([&] { return session().history().can_undo(); }))
         << name;  // it may be worked out still
     ASSERT_TRUE(session().history().undo()) << name;
     session().select({});
@@ -167,7 +167,7 @@ TEST_F(MainThreadTest, IsHardlyEverLongAtWorkWhileTheViewIsTurnedAndPartsAreDrag
   application().watch(kLongest);
   drag(*ghost);
   expect_few_long_calls("an operand is dragged");
-  EXPECT_EQ(session().history().actions().undo_name().substr(0, 12), "Move operand");
+  EXPECT_EQ(session().history().undo_name().substr(0, 12), "Move operand");
 }
 
 }  // namespace

@@ -4,11 +4,10 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 
 #include "apps/interrupt.h"
-#include "base/version.h"
 #include "collab/client/integration.h"
+#include "collab/client/joining.h"
 #include "interaction/operations/arguments.h"
 #include "world/edit/edit_bytes.h"
 
@@ -16,22 +15,6 @@ namespace icome::apps {
 namespace {
 
 constexpr std::chrono::milliseconds kJoinPatience{3'000};  // with a server that is not to be reached
-
-std::string person_of_this_machine() {
-  for (const char* const name : {"ICOME_NAME", "USER", "LOGNAME"})
-    if (const char* const value = std::getenv(name); value != nullptr && *value != '\0') return value;
-  return "Somebody";
-}
-
-base::Result<collab::ClientIdentity> identity_of_this_run() {
-  auto key = collab::make_client_key();
-  if (!key) return tl::unexpected(key.error());
-  collab::ClientIdentity identity;
-  identity.key = std::move(*key);
-  identity.name = person_of_this_machine();
-  identity.program = fmt::format("icome {}", base::kVersion);
-  return identity;
-}
 
 /// Works until `done`; an interruption is a failure.
 base::Result<void> work(collab::Connection& connection, const std::function<bool()>& done,
@@ -58,12 +41,9 @@ std::string shown_name(const std::filesystem::path& design) {
 
 base::Result<std::unique_ptr<collab::Connection>> join_design(const std::string& text, StatusLine& status,
                                                               bool only_reads) {
-  auto address = collab::design_address(text);
+  auto address = collab::address_to_join(text);
   if (!address) return tl::unexpected(address.error());
-  // So that the secret need not stand among a process's arguments, which everybody can see.
-  if (const char* const token = std::getenv("ICOME_TOKEN"); token != nullptr && address->token.empty())
-    address->token = token;
-  auto identity = identity_of_this_run();
+  auto identity = collab::new_identity();
   if (!identity) return tl::unexpected(identity.error());
   identity->only_reads = only_reads;
   auto connection = collab::Connection::create(*address, std::move(*identity));

@@ -54,7 +54,7 @@ void Conversation::closed(const std::string& why, std::int64_t now) {
   now_ = now;
   connected_ = false;
   welcome_.reset();
-  whereabouts_.clear();
+  sightings_.clear();
   for (auto& [author, person] : people_) person.here = false;
   if (const auto done = replica_.rewind(); !done) needs_anew_ = true;
   if (state_ != ConversationState::Ended) change_state(ConversationState::Away, why_.empty() ? why : why_);
@@ -291,13 +291,13 @@ void Conversation::hear(FloorState& message) {
 void Conversation::hear(People& message) {
   for (const Person& person : message.people) {
     people_[person.author] = person;
-    if (!person.here) whereabouts_.erase(person.author);
+    if (!person.here) sightings_.erase(person.author);
     if (person.author == replica_.author()) role_ = person.role;
     seen_.emplace_back(person);
   }
 }
 
-void Conversation::hear(Presence& message) { whereabouts_[message.author] = message.where; }
+void Conversation::hear(Presence& message) { sightings_[message.author] = {message.where, now_}; }
 void Conversation::hear(Said& message) { seen_.emplace_back(message); }
 void Conversation::hear(Living& message) { delay_ = now_ - std::int64_t(message.echo); }
 
@@ -337,9 +337,17 @@ std::vector<std::uint64_t> Conversation::fences_for(const world::Edit& edit) con
   return fences;
 }
 
+std::optional<std::string> Conversation::refusal(const world::Edit& edit) const {
+  if (role_ < Role::Edit) return "You may look at this design, but not change it.";
+  const auto obstacle = obstacle_to(edit, holds_, replica_.world(), replica_.author());
+  if (!obstacle) return std::nullopt;
+  return name_of(obstacle->holder) + " holds " + called(replica_.world(), obstacle->item) + ".";
+}
+
 base::Result<std::uint64_t> Conversation::perform(const world::Edit& edit, const std::string& name,
-                                                  bool merges) {
-  return replica_.perform(edit, name, fences_for(edit), merges);
+                                                  bool goes_on) {
+  if (const auto why = refusal(edit)) return base::fail(*why);
+  return replica_.perform(edit, name, fences_for(edit), goes_on);
 }
 
 base::Result<std::uint64_t> Conversation::turn(bool back) {

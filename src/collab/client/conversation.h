@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "collab/client/obstacle.h"
 #include "collab/client/replica.h"
 #include "collab/link/link_loop.h"
 #include "collab/protocol/address.h"
@@ -17,7 +18,7 @@ namespace icome::collab {
 struct ClientIdentity {
   std::string key = {};             // the same one is the same author to a server; nobody else should know it
   std::string name = {};            // of the person
-  std::uint32_t colour = 0x808080;  // 0xRRGGBB
+  std::uint32_t colour = 0;  // 0xRRGGBB; 0: the one of the author's number
   std::string program = {};
   bool only_reads = false;  // nothing will be changed
 };
@@ -82,8 +83,11 @@ class Conversation {
   // ---- the design
   Replica& replica() { return replica_; }
   const Replica& replica() const { return replica_; }
-  /// Performs an edit here and for all; see Replica::perform. It is sent under the holds that cover it.
-  base::Result<std::uint64_t> perform(const world::Edit& edit, const std::string& name, bool merges = false);
+  /// Performs an edit here and for all; see Replica::perform. It is sent under the holds that cover it. Fails
+  /// at once for who may only look, and where another holds what it changes: "Ann holds leg."
+  base::Result<std::uint64_t> perform(const world::Edit& edit, const std::string& name, bool goes_on = false);
+  /// The reason why perform() would fail for the floor or the role; nothing: it would not.
+  std::optional<std::string> refusal(const world::Edit& edit) const;
   base::Result<std::uint64_t> undo() { return turn(true); }
   base::Result<std::uint64_t> redo() { return turn(false); }
 
@@ -92,13 +96,18 @@ class Conversation {
   void deselect(Item item);
   void take_away(Item item);
   /// All that is held, by whom.
-  const std::map<Item, FloorChanged>& holds() const { return holds_; }
+  const Holds& holds() const { return holds_; }
 
   // ---- people
   void present(const Whereabouts& where);
   void say(const std::string& text);
   const std::map<std::uint32_t, Person>& people() const { return people_; }
-  const std::map<std::uint32_t, Whereabouts>& whereabouts() const { return whereabouts_; }
+  /// Where the others were told to be, by author.
+  struct Sighting {
+    Whereabouts where = {};
+    std::int64_t time = 0;  // ms, when it came
+  };
+  const std::map<std::uint32_t, Sighting>& sightings() const { return sightings_; }
   /// "Ann", or "Somebody".
   std::string name_of(std::uint32_t author) const;
 
@@ -163,10 +172,10 @@ class Conversation {
   std::int64_t alive_said_ = 0;  // ms
   std::optional<std::int64_t> delay_;
 
-  std::map<Item, FloorChanged> holds_;
+  Holds holds_;
   std::map<Item, bool> wanted_;  // what was selected, so that it is asked for again; waits?
   std::map<std::uint32_t, Person> people_;
-  std::map<std::uint32_t, Whereabouts> whereabouts_;
+  std::map<std::uint32_t, Sighting> sightings_;
   std::vector<Seen> seen_;
 };
 

@@ -7,12 +7,14 @@
 
 #include "collab/order/fitted_edit.h"
 #include "world/edit/edit_bytes.h"
+#include "world/edit/edit_memory.h"
+#include "world/edit/history.h"
 
 namespace icome::collab {
 namespace {
 
-/// Does the newer of two edits make the older one needless, as the steps of a drag do?
-bool replaces(const world::Edit& older, const world::Edit& newer) {
+/// Does the newer of two edits make the older one needless?
+bool replaces_one(const world::Edit& older, const world::Edit& newer) {
   if (const auto* const place = std::get_if<world::PlaceObject>(&older.what)) {
     const auto* const other = std::get_if<world::PlaceObject>(&newer.what);
     return other != nullptr && other->id == place->id;
@@ -21,6 +23,14 @@ bool replaces(const world::Edit& older, const world::Edit& newer) {
   const auto* const other = std::get_if<world::MoveVertices>(&newer.what);
   return vertices != nullptr && other != nullptr && vertices->id == other->id &&
          vertices->vertices == other->vertices;
+}
+
+/// Does it do so for each step of a drag of one thing or many?
+bool replaces(const world::Edit& older, const world::Edit& newer) {
+  const auto* const before = std::get_if<world::EditGroup>(&older.what);
+  const auto* const after = std::get_if<world::EditGroup>(&newer.what);
+  if (before && after) return std::ranges::equal(before->edits, after->edits, replaces_one);
+  return replaces_one(older, newer);
 }
 
 bool gets_in_the_way(Aspect mine, Aspect theirs) {
@@ -38,12 +48,24 @@ void Replica::set_author(std::uint32_t author, std::uint64_t last_number) {
   last_number_ = std::max(last_number_, last_number);
 }
 
-base::Result<world::Edit> Replica::change(const world::Edit& edit) { return apply_fitted(world_, edit); }
+base::Result<world::Edit> Replica::change(const world::Edit& edit) {
+  auto done = apply_fitted(world_, edit);
+  if (!done) return tl::unexpected(done.error());
+  if (listener_) listener_(&done->for_replicas);
+  return std::move(done->inverse);
+}
 
 base::Result<void> Replica::take_back(const world::Edit& inverse) {
-  const auto done = world::apply(world_, inverse);
+  const auto done = world::perform_shared(world_, inverse);
   if (!done) return differs(done.error().message);
+  if (listener_) listener_(&done->for_replicas);
   return {};
+}
+
+/// The inverse of an own edit is another one when others' edits have come before it.
+void Replica::set_inverse(std::uint64_t number, const world::Edit& inverse) {
+  const auto own = own_.find(number);
+  if (own != own_.end() && !own->second.is_covered) own->second.inverse = inverse;
 }
 
 /// Takes the own edits from `from` on back, the last one first.
@@ -65,7 +87,7 @@ void Replica::redo_pending(std::size_t from) {
     if (it.inverse) continue;
     auto inverse = change(it.edit);
     if (!inverse) continue;
-    if (const auto own = own_.find(it.number); own != own_.end()) own->second.inverse = *inverse;
+    set_inverse(it.number, *inverse);
     it.inverse = std::move(*inverse);
   }
 }
@@ -82,29 +104,54 @@ void Replica::refresh() {
 }
 
 bool Replica::merges_into_last(const world::Edit& edit) const {
-  return !pending_.empty() && !pending_.back().was_sent && pending_.back().inverse &&
-         replaces(pending_.back().edit, edit);
+  return !pending_.empty() && pending_.back().number == last_number_ && !pending_.back().was_sent &&
+         pending_.back().inverse && replaces(pending_.back().edit, edit);
 }
 
 base::Result<std::uint64_t> Replica::perform(const world::Edit& edit, const std::string& name,
-                                             std::vector<std::uint64_t> fences, bool merges) {
+                                             std::vector<std::uint64_t> fences, bool goes_on) {
   if (const auto bytes = world::to_bytes(edit); !bytes) return tl::unexpected(bytes.error());
   auto inverse = change(edit);
   if (!inverse) return tl::unexpected(inverse.error());
   undone_.clear();
-  if (merges && merges_into_last(edit)) {  // the older inverse takes both back
-    pending_.back().edit = edit;
+  goes_on = goes_on && !done_.empty();
+  if (goes_on && done_.back().numbers.back() == last_number_ && merges_into_last(edit)) {
+    pending_.back().edit = edit;  // the older inverse takes both back
     pending_.back().fences = std::move(fences);
-    return pending_.back().number;
+    return last_number_;
   }
-  const std::uint64_t number = ++last_number_;
-  own_.insert_or_assign(number, Own{*inverse, 0});
-  const bool goes_on = merges && !done_.empty() && done_.back().name == name && !pending_.empty() &&
-                       replaces(pending_.back().edit, edit);
+  const bool is_covered =
+      goes_on && world::takes_back_both(own_.at(done_.back().numbers.front()).inverse, *inverse);
   if (!goes_on) done_.push_back({name, {}});
+  const std::uint64_t number = add_pending(edit, name, std::move(*inverse), std::move(fences));
+  if (is_covered) own_.insert_or_assign(number, Own{world::EditGroup{}, 0, true});
   done_.back().numbers.push_back(number);
-  pending_.push_back({number, name, edit, std::move(fences), sequence_, false, false, std::move(*inverse)});
+  forget_oldest();
   return number;
+}
+
+/// An own edit that was applied, to be sent; can be taken back by its inverse.
+std::uint64_t Replica::add_pending(const world::Edit& edit, const std::string& name, world::Edit inverse,
+                                   std::vector<std::uint64_t> fences) {
+  const std::uint64_t number = ++last_number_;
+  own_.insert_or_assign(number, Own{inverse, 0, false});
+  pending_.push_back({number, name, edit, std::move(fences), sequence_, false, false, std::move(inverse)});
+  return number;
+}
+
+/// As a History does: the last action can always be taken back.
+void Replica::forget_oldest() {
+  std::size_t bytes = 0, kept = 0;
+  while (kept < done_.size()) {
+    for (const std::uint64_t number : done_[done_.size() - 1 - kept].numbers)
+      bytes += world::memory_of(own_.at(number).inverse);
+    if (kept > 0 && bytes > world::History::kMostBytes) break;
+    ++kept;
+  }
+  const auto first = done_.end() - std::ptrdiff_t(kept);
+  for (auto it = done_.begin(); it != first; ++it)
+    for (const std::uint64_t number : it->numbers) own_.erase(number);
+  done_.erase(done_.begin(), first);
 }
 
 std::optional<Submit> Replica::next_to_send() {
@@ -146,6 +193,7 @@ base::Result<void> Replica::begin(world::World world, std::uint64_t sequence,
   std::erase_if(pending_, is_covered);
   for (const Pending& it : covered_) forget(it.number);
   world_ = std::move(world);
+  if (listener_) listener_(nullptr);
   has_base_ = true;
   base_ = sequence_ = sequence;
   for (Pending& it : pending_) it.inverse.reset();
@@ -195,8 +243,8 @@ base::Result<void> Replica::accepted(const Accepted& it) {
   Pending own = std::move(pending_[index]);
   pending_.erase(pending_.begin() + std::ptrdiff_t(index));
   sequence_ = it.sequence;
-  if (const auto kept = own_.find(own.number); kept != own_.end())
-    kept->second = Own{*own.inverse, it.sequence};
+  set_inverse(own.number, *own.inverse);
+  if (const auto kept = own_.find(own.number); kept != own_.end()) kept->second.sequence = it.sequence;
   tentative_.push_back({it.sequence, it.sequence, author_, own.number, std::move(own.name),
                         std::move(own.edit), std::move(*own.inverse), std::move(own.fences), own.base});
   if (comes_early) redo_pending();
@@ -206,7 +254,11 @@ base::Result<void> Replica::accepted(const Accepted& it) {
 void Replica::forget(std::uint64_t number) {
   own_.erase(number);
   for (std::vector<Action>* actions : {&done_, &undone_}) {
-    for (Action& action : *actions) std::erase(action.numbers, number);
+    for (Action& action : *actions) {
+      // The inverse of the next one is known when it is redone.
+      if (std::erase(action.numbers, number) > 0 && !action.numbers.empty())
+        own_.at(action.numbers.front()).is_covered = false;
+    }
     std::erase_if(*actions, [](const Action& action) { return action.numbers.empty(); });
   }
 }
@@ -322,16 +374,13 @@ base::Result<std::uint64_t> Replica::turn(std::vector<Action>& from, std::vector
       if (whose != nullptr) *whose = touch->author;
       return stays("somebody has changed the same thing after it.");
     }
-    group.edits.push_back(own.inverse);
+    if (!own.is_covered) group.edits.push_back(own.inverse);
   }
   world::Edit edit =
       group.edits.size() == 1 ? world::Edit(group.edits.front()) : world::Edit(std::move(group));
   auto inverse = change(edit);
   if (!inverse) return stays(inverse.error().message);
-  const std::uint64_t number = ++last_number_;
-  own_.insert_or_assign(number, Own{*inverse, 0});
-  pending_.push_back({number, action.name, std::move(edit), std::move(fences), sequence_, false, false,
-                      std::move(*inverse)});
+  const std::uint64_t number = add_pending(edit, action.name, std::move(*inverse), std::move(fences));
   from.pop_back();
   for (const std::uint64_t old : action.numbers) own_.erase(old);
   to.push_back({action.name, {number}});

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -43,21 +44,27 @@ class Replica {
   /// Is the world beneath all tentative edits durable, so that one may resume from it?
   bool can_resume() const { return has_base_ && base_ <= durable_; }
 
+  /// Calls `listener` with each edit that world() goes through from now on, in the form that leads another copy
+  /// of it along, and with null when it has become another world.
+  void on_change(std::function<void(const world::Edit*)> listener) { listener_ = std::move(listener); }
+
   /// The author whose edits are one's own, and the highest number that it has used.
   void set_author(std::uint32_t author, std::uint64_t last_number);
   std::uint32_t author() const { return author_; }
 
   // ---- one's own edits
 
-  /// Applies an edit and queues it for the server. With `merges`, it may replace the last one where that has
-  /// not been sent and both only place the same object or move the same vertices (the steps of a drag). Gives
-  /// its number.
+  /// Applies an edit and queues it for the server. Where it `goes_on` with the last action, as the steps of a
+  /// drag do, it is undone with that, and may replace its last edit where that has not been sent and both only
+  /// place the same objects or move the same vertices. Gives its number.
   base::Result<std::uint64_t> perform(const world::Edit& edit, const std::string& name,
-                                      std::vector<std::uint64_t> fences = {}, bool merges = false);
+                                      std::vector<std::uint64_t> fences = {}, bool goes_on = false);
   /// Takes the last own action back, as a new edit, or fails and says what is in the way: somebody's later
   /// edit, with the author in `whose`.
   base::Result<std::uint64_t> undo(std::vector<std::uint64_t> fences = {}, std::uint32_t* whose = nullptr);
   base::Result<std::uint64_t> redo(std::vector<std::uint64_t> fences = {}, std::uint32_t* whose = nullptr);
+  bool can_undo() const { return !done_.empty(); }
+  bool can_redo() const { return !undone_.empty(); }
   std::string undo_name() const { return done_.empty() ? "" : done_.back().name; }
   std::string redo_name() const { return undone_.empty() ? "" : undone_.back().name; }
 
@@ -127,6 +134,7 @@ class Replica {
   struct Own {
     world::Edit inverse;
     std::uint64_t sequence = 0;  // 0: not ordered yet
+    bool is_covered = false;     // the inverse of its action's first edit takes this back as well
   };
   struct Action {
     std::string name;
@@ -142,6 +150,10 @@ class Replica {
   base::Result<void> take_pending_back(std::size_t from = 0);
   void redo_pending(std::size_t from = 0);
   bool merges_into_last(const world::Edit& edit) const;
+  std::uint64_t add_pending(const world::Edit& edit, const std::string& name, world::Edit inverse,
+                            std::vector<std::uint64_t> fences);
+  void set_inverse(std::uint64_t number, const world::Edit& inverse);
+  void forget_oldest();
   void note_others(const world::Edit& edit, std::uint64_t sequence, std::uint32_t author);
   std::optional<Touch> later_touch(const world::Edit& edit, std::uint64_t since) const;
   base::Result<std::uint64_t> turn(std::vector<Action>& from, std::vector<Action>& to,
@@ -152,6 +164,7 @@ class Replica {
 
   world::GeometryFactory factory_;
   world::World world_;
+  std::function<void(const world::Edit*)> listener_;
   std::uint32_t author_ = 0;
   std::uint64_t last_number_ = 0;
   bool has_base_ = false;

@@ -1,7 +1,5 @@
 #include "collab/order/fitted_edit.h"
 
-#include <algorithm>
-
 namespace icome::collab {
 namespace {
 
@@ -24,37 +22,24 @@ std::size_t most_place(const world::World& world, const world::EnterScene& it) {
   return scene == nullptr ? 0 : scene->roots.size();
 }
 
-/// All edits of the group, or none.
-base::Result<world::Edit> apply_all(world::World& world, const world::EditGroup& group) {
-  world::EditGroup back;
-  for (const world::Edit& edit : group.edits) {
-    auto inverse = apply_fitted(world, edit);
-    if (!inverse) {
-      for (auto done = back.edits.rbegin(); done != back.edits.rend(); ++done)
-        (void)world::apply(world, *done);
-      return inverse;
+std::optional<world::Edit> with_fitted_place(const world::World& world, const world::Edit& edit) {
+  const auto fitted = [&](const auto& it) -> std::optional<world::Edit> {
+    if constexpr (requires { it.place; }) {
+      if (const std::size_t most = most_place(world, it); it.place > most) {
+        auto nearer = it;
+        nearer.place = most;
+        return world::Edit(std::move(nearer));
+      }
     }
-    back.edits.push_back(std::move(*inverse));
-  }
-  std::reverse(back.edits.begin(), back.edits.end());
-  return world::Edit(std::move(back));
+    return std::nullopt;
+  };
+  return std::visit(fitted, edit.what);
 }
 
 }  // namespace
 
-base::Result<world::Edit> apply_fitted(world::World& world, const world::Edit& edit) {
-  if (const auto* const group = std::get_if<world::EditGroup>(&edit.what)) return apply_all(world, *group);
-  const auto with_place = [&](const auto& it) -> base::Result<world::Edit> {
-    if constexpr (requires { it.place; }) {
-      if (const std::size_t most = most_place(world, it); it.place > most) {
-        auto fitted = it;
-        fitted.place = most;
-        return world::apply(world, world::Edit(std::move(fitted)));
-      }
-    }
-    return world::apply(world, edit);
-  };
-  return std::visit(with_place, edit.what);
+base::Result<world::SharedEdit> apply_fitted(world::World& world, const world::Edit& edit) {
+  return world::perform_shared(world, edit, with_fitted_place);
 }
 
 }  // namespace icome::collab

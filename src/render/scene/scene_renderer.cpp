@@ -173,7 +173,7 @@ struct SceneRenderer::Parts {
   base::Result<void> make_mean(const ScenePictureWish& wish);
   void begin_overlay(const SceneCanvas& picture);
   base::Result<void> show(const ScenePictureWish& wish);
-  base::Result<void> outline(const ScenePictureWish& wish);
+  base::Result<void> outline(const ScenePictureWish& wish, const SceneOutline& what);
   base::Result<void> draw_markers(const ScenePictureWish& wish);
 };
 
@@ -184,7 +184,7 @@ base::Result<void> SceneRenderer::Parts::fit_canvases(const ScenePictureWish& wi
   if (done && refined) done = sum.fit(width, height, GL_RGBA32F, 0);
   if (done && refined) done = mean.fit(width, height, GL_SRGB8_ALPHA8, 0);
   if (done) done = shown.fit(width, height, GL_SRGB8_ALPHA8, GL_DEPTH24_STENCIL8);
-  if (done && !wish.look.selected.empty()) done = mask.fit(width, height, GL_R8, 0);
+  if (done && !wish.look.outlines.empty()) done = mask.fit(width, height, GL_R8, 0);
   return done;
 }
 
@@ -326,12 +326,13 @@ base::Result<void> SceneRenderer::Parts::make_mean(const ScenePictureWish& wish)
   return draw_whole(program, &sum.colour);
 }
 
-base::Result<void> SceneRenderer::Parts::outline(const ScenePictureWish& wish) {
-  std::vector<world::ObjectId> selected = wish.look.selected;
-  std::sort(selected.begin(), selected.end());
+base::Result<void> SceneRenderer::Parts::outline(const ScenePictureWish& wish,
+                                                 const SceneOutline& what) {
+  std::vector<world::ObjectId> objects = what.objects;
+  std::sort(objects.begin(), objects.end());
   std::vector<PlannedItem> items;
   wish.scene.for_each([&](const RenderItem& item) {
-    if (std::binary_search(selected.begin(), selected.end(), item.object))
+    if (std::binary_search(objects.begin(), objects.end(), item.object))
       items.push_back(plan_item(item, wish.part));
   });
   if (items.empty()) return {};
@@ -345,10 +346,10 @@ base::Result<void> SceneRenderer::Parts::outline(const ScenePictureWish& wish) {
   const auto program = programs.outline();
   if (!program) return tl::unexpected(program.error());
   glUseProgram((*program)->program.name());
-  const charts::Colour& line = wish.look.selection;
+  const charts::Colour& line = what.colour;
   glUniform4f(glGetUniformLocation((*program)->program.name(), "colour"), float(line.red), float(line.green),
               float(line.blue), 1.0F);
-  set_uniform((*program)->program, "reach", std::clamp(wish.look.selection_width, 1, 8));
+  set_uniform((*program)->program, "reach", std::clamp(wish.look.outline_width, 1, 8));
   bind_canvas(shown);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -377,10 +378,11 @@ void SceneRenderer::Parts::begin_overlay(const SceneCanvas& picture) {
 base::Result<void> SceneRenderer::Parts::show(const ScenePictureWish& wish) {
   const SceneCanvas* canvas = summed > 0 ? &mean : &at_once;
   base::Result<void> done;
-  if (!wish.look.selected.empty() || !wish.look.overlay.empty()) {
+  if (!wish.look.outlines.empty() || !wish.look.overlay.empty()) {
     begin_overlay(*canvas);
     canvas = &shown;
-    if (!wish.look.selected.empty()) done = outline(wish);
+    for (const SceneOutline& it : wish.look.outlines)
+      if (done) done = outline(wish, it);
     if (done) done = draw_markers(wish);
     bind_canvas(shown);
     if (done) done = panels.draw(wish.look.overlay, wish.camera, wish.target, programs);

@@ -72,6 +72,12 @@ struct SceneOverlay {
   }
 };
 
+/// A line around what is seen of objects.
+struct SceneOutline {
+  std::vector<world::ObjectId> objects = {};  ///< in any order
+  charts::Colour colour{1.0, 0.55, 0.10};
+};
+
 /// The look in which a scene is drawn.
 struct SceneLook {
   charts::Colour above{0.80, 0.84, 0.88};  ///< background at the top; alpha 0 leaves it clear
@@ -91,9 +97,8 @@ struct SceneLook {
   /// shadows, light from all of the sky; for views at rest and pictures.
   int passes = 1;
   CsgWay csg = CsgWay::Automatic;
-  std::vector<world::ObjectId> selected = {};  ///< have a line around; in any order
-  charts::Colour selection{1.0, 0.55, 0.10};
-  int selection_width = 2;  ///< pixels, 1 ... 8
+  std::vector<SceneOutline> outlines = {};  ///< later ones cover earlier ones
+  int outline_width = 2;                    ///< pixels, 1 ... 8
   SceneOverlay overlay = {};
 };
 

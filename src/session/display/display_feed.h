@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -22,8 +23,11 @@ struct DisplayWish {
   std::optional<base::Affine3> miniature = {};
   /// The sign beside a hand whose force is held down, as the motors would become too warm; null: none.
   std::shared_ptr<const charts::Image> spared_sign = nullptr;
+  /// The names of others who are at work in the design, by author.
+  std::map<std::uint32_t, std::shared_ptr<const charts::Image>> name_signs = {};
   /// The pointer that lies aside, which is not shown; none: all are shown.
   std::optional<std::size_t> aside = {};
+  charts::Colour selection = {1.0, 0.55, 0.10};        // of the line around what is selected
   charts::Colour workspace = {0.16, 0.47, 0.90, 0.6};  // of the lines of a device's workspace
   /// Places that are to be seen besides the scene, wherever they lie in depth.
   std::vector<base::Vector3> in_sight = {};

@@ -32,7 +32,9 @@ void AutosaveKeeper::replace(const Edited& edited, Time now) {
   whole_ = edited.number;
   last_edit_ = 0;
   design_.clear();
-  if (!edited.saved) return;
+  by_server_ = edited.saved && edited.saved->by_server;
+  if (by_server_) apart_ = {};
+  if (!edited.saved || by_server_) return;
   design_ = edited.saved->design;
   recovered_ = edited.saved->recovered;
   unsaved_ = recovered_ != nullptr;
@@ -40,7 +42,7 @@ void AutosaveKeeper::replace(const Edited& edited, Time now) {
 }
 
 void AutosaveKeeper::note_saved(const SavedWork& saved) {
-  if (saved.number < whole_) return;  // of a world that is gone
+  if (by_server_ || saved.number < whole_) return;  // the latter is of a world that is gone
   design_ = saved.design;
   if (last_edit_ <= saved.number && !saved.in_part) {
     if (follows_) part();
@@ -52,6 +54,7 @@ void AutosaveKeeper::note_saved(const SavedWork& saved) {
 }
 
 void AutosaveKeeper::edit(const Edited& edited, Time now) {
+  if (by_server_) return;
   last_edit_ = edited.number;
   unsaved_ = true;
   if (lost_) return;

@@ -50,6 +50,7 @@ class AutosaveKeeper {
   bool follows_ = false;                          // the journal is the world
   world::World apart_;                            // the world while no journal follows
   bool unsaved_ = false;
+  bool by_server_ = false;                  // a server keeps the world
   bool lost_ = false;                       // an edit could not be done again: the world is not known
   std::filesystem::path design_ = {};       // that the work is on
   std::uint64_t last_edit_ = 0;             // number of the last edit

@@ -123,7 +123,7 @@ void EditActions::refresh() {
     action.setText('&' + QString(line).replace('&', "&&"));
     action.setToolTip(tip_of(line));
   };
-  const world::History& history = session_.history().actions();
+  const session::SessionHistory& history = session_.history();
   undo_->setEnabled(history.can_undo());
   name(*undo_, "Undo", history.undo_name());
   redo_->setEnabled(history.can_redo());

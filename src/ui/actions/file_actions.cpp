@@ -9,6 +9,8 @@
 
 #include "ui/actions/actions.h"
 #include "ui/look/icons.h"
+#include "ui/panels/object_look.h"
+#include "ui/sharing/connect_dialog.h"
 
 namespace icome::ui {
 
@@ -27,10 +29,10 @@ QString text_of_some(const std::vector<std::string>& sentences) {
 }  // namespace
 
 FileActions::FileActions(session::Session& session, QSettings& settings, QWidget& window)
-    : session_(session), window_(window), recent_(settings) {
+    : session_(session), settings_(settings), window_(window), recent_(settings) {
   // An edit of this design cancels the reading of another, which would replace it.
   session_.on_change([this](const world::Changes* changes) {
-    if (!changes || !session_.files().opening()) return;
+    if (!changes || session_.follows_others() || !session_.files().opening()) return;
     session_.files().cancel_open();
     given_up_ = true;
   });
@@ -40,6 +42,8 @@ void FileActions::fill(QMenu& menu) {
   add_action(menu, "file.new", "&New", QKeySequence::New, [this] { start(); })->setIcon(icon(Icon::New));
   open_ = add_action(menu, "file.open", "&Open\u2026", QKeySequence::Open, [this] { choose_and_open(); });
   open_->setIcon(icon(Icon::Open));
+  add_action(menu, "file.open_address", "Open A&ddress\u2026", QKeySequence("Ctrl+Shift+O"),
+             [this] { choose_address(); });
   recent_menu_ = menu.addMenu("Open &Recent");
   recent_menu_->setObjectName("file.recent");
   QObject::connect(recent_menu_, &QMenu::aboutToShow, &window_, [this] { fill_recent(); });
@@ -69,11 +73,14 @@ void FileActions::fill_recent() {
 }
 
 QString FileActions::design_name() const {
+  if (const auto shared = session_.sharing().state()) return one_line(shared->design);
   return session_.files().path().empty() ? QString("Untitled") : text_of(session_.files().path().filename());
 }
 
 QString FileActions::doing() const {
   if (session_.files().opening()) {
+    if (session::SessionSharing::is_address(opened_.string()))
+      return QString("Joining %1\u2026").arg(text_of(opened_));
     return opened_.empty() ? QString("Reading\u2026")
                            : QString("Reading %1\u2026").arg(text_of(opened_.filename()));
   }
@@ -93,6 +100,7 @@ void FileActions::make_new() {
 }
 
 void FileActions::open(const std::filesystem::path& design) {
+  if (session::SessionSharing::is_address(design.string())) return open_address(text_of(design));
   when_safe([this, design] {
     std::error_code ignored;
     const auto whole = std::filesystem::absolute(design, ignored);
@@ -101,6 +109,24 @@ void FileActions::open(const std::filesystem::path& design) {
     given_up_ = false;
     session_.files().open(opened_);
   });
+}
+
+void FileActions::open_address(const QString& address) {
+  when_safe([this, address] {
+    const auto shown = session::SessionSharing::shown(address.toStdString());
+    opened_ = shown ? path_of(QString::fromStdString(*shown)) : std::filesystem::path();
+    recovered_.reset();
+    given_up_ = false;
+    session_.sharing().open(address.toStdString(), person_name(settings_).toStdString());
+  });
+}
+
+void FileActions::choose_address() {
+  if (!begin_()) return;
+  auto* dialog = new ConnectDialog(
+      session_, settings_, [this](const QString& address) { open_address(address); }, &window_);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->open();
 }
 
 void FileActions::recover(const std::filesystem::path& journal) {
@@ -143,7 +169,9 @@ void FileActions::choose_and_open() {
 
 void FileActions::save() {
   if (!begin_()) return;
-  if (session_.files().path().empty()) {
+  if (session_.sharing().state()) {
+    save_as();  // a copy: the server keeps the design
+  } else if (session_.files().path().empty()) {
     save_as();
   } else {
     begin_save(session_.files().path());
@@ -161,7 +189,8 @@ void FileActions::save_again() {
 
 void FileActions::save_as() {
   if (!begin_()) return;
-  auto* dialog = new QFileDialog(&window_, "Save the Design As");
+  const auto shared = session_.sharing().state();
+  auto* dialog = new QFileDialog(&window_, shared ? "Save a Copy of the Design" : "Save the Design As");
   dialog->setObjectName("save_as");
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setAcceptMode(QFileDialog::AcceptSave);
@@ -177,7 +206,7 @@ void FileActions::save_as() {
     dialog->selectFile(file.completeBaseName());
   } else {
     if (!recent_.paths().isEmpty()) dialog->setDirectory(QFileInfo(recent_.paths().front()).dir());
-    dialog->selectFile("Untitled");
+    dialog->selectFile(shared ? one_line(shared->design) : QString("Untitled"));
   }
   dialog->selectNameFilter(chosen);
   dialog->setDefaultSuffix(ending_of(chosen));
@@ -216,11 +245,19 @@ void FileActions::ask(const std::function<void()>& then) {
   box->setObjectName("save_changes");
   box->setTextFormat(Qt::PlainText);
   const auto& left_out = session_.files().left_out();
-  box->setInformativeText(
+  if (const auto shared = session_.sharing().state()) {
+    box->setText(QString("Leave %1 now?").arg(design_name()));
+    box->setInformativeText(QString("The server has not got %L1 of your edits yet, and they are lost when you leave. "
+                                    "Wait until there is a connection, or save a copy in a file.")
+                                .arg(shared->unsent));
+    box->button(QMessageBox::Save)->setText("&Save a Copy\u2026");
+  } else {
+    box->setInformativeText(
       left_out.empty() ? QString("Without saving, what you did since the last time is lost.")
                        : QString("%1 cannot hold all of your design: %2\nSave it as .icome, or what is left "
                                  "out is lost.")
                              .arg(design_name(), text_of_some(left_out)));
+  }
   box->button(QMessageBox::Discard)->setText("&Don\u2019t Save");
   box->setDefaultButton(QMessageBox::Save);
   box->setAttribute(Qt::WA_DeleteOnClose);
@@ -309,7 +346,11 @@ Note FileActions::hear(const SessionEvent& event) {
   // Asks again if the design was edited meanwhile. A save that is still pending is waited for.
   const bool written =
       event.kind == SessionEvent::Kind::Saved || event.kind == SessionEvent::Kind::SavedInPart;
-  if (written && then_ && !session_.files().saving()) when_safe(std::exchange(then_, nullptr));
+  if (written && then_ && !session_.files().saving()) {
+    const auto then = std::exchange(then_, nullptr);
+    // A copy of a shared design was what the person wanted.
+    session_.sharing().state() ? then() : when_safe(then);
+  }
   if (event.kind == SessionEvent::Kind::Recovered && recovered_)
     return note_of_recovered(*std::exchange(recovered_, std::nullopt), event.details);
   return note_of(event);

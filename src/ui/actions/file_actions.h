@@ -38,6 +38,9 @@ class FileActions {
   /// Goes back to the file as it was last saved; to a new design where there is no file.
   void revert();
   void choose_and_open();
+  /// Joins a design on a server, likewise.
+  void open_address(const QString& address);
+  void choose_address();
   void save();
   void save_again();
   void save_as();
@@ -63,6 +66,7 @@ class FileActions {
   void ask_to_replace(const session::SessionEvent& event);
 
   session::Session& session_;
+  QSettings& settings_;
   QWidget& window_;
   RecentFiles recent_;
   QMenu* recent_menu_ = nullptr;

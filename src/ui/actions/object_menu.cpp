@@ -42,6 +42,24 @@ void add_duplicates(QMenu& menu, session::Session& session, const ObjectMenu& en
   }
 }
 
+/// Ways to get what another holds.
+void add_floor(QMenu& menu, session::Session& session, const ObjectMenu& entries) {
+  if (session.selection().size() != 1) return;
+  const auto holder = session.sharing().holder_of(session.selection().front());
+  const auto state = session.sharing().state();
+  if (!holder || !state) return;
+  const QString name = shortened(one_line(holder->name)).replace('&', "&&");
+  menu.addAction(QString("&Wait until %1 Gives It Back").arg(name), &menu,
+                 [&session, id = session.selection().front()] { session.sharing().wait_for(id); });
+  if (state->role == collab::Role::Own)
+    menu.addAction(QString("Take It &Away from %1").arg(name), &menu,
+                   [&session, object = holder->object, refused = entries.refused] {
+                     const auto done = session.sharing().take_away(object);
+                     if (!done && refused) refused(done.error().message);
+                   });
+  menu.addSeparator();
+}
+
 }  // namespace
 
 base::Result<void> delete_selected(session::Session& session) {
@@ -102,6 +120,7 @@ void fill_object_menu(QMenu& menu, session::Session& session, const ObjectMenu& 
   const auto report = [refused = entries.refused](const base::Result<void>& done) {
     if (!done && refused) refused(done.error().message);
   };
+  add_floor(menu, session, entries);
   if (entries.zoom) menu.addAction(icon(Icon::ZoomToSelection), "&Zoom to", &menu, entries.zoom);
   if (entries.rename) menu.addAction(icon(Icon::Rename), "&Rename", &menu, entries.rename);
   if (entries.picture) menu.addAction("Put a &Picture On\u2026", &menu, entries.picture);

@@ -32,9 +32,13 @@ OperationPreview::OperationPreview(session::Session& session, std::function<void
   session.on_change([kept, &session, ended = std::move(ended)](const world::Changes* changes) {
     const std::shared_ptr<State> state = kept.lock();
     if (!state || state->busy || !state->shown) return;
+    if (changes && session.history().trying()) {  // others have changed a shared design below it
+      state->shown->without = session.sharing().design();
+      return;
+    }
     const Shown shown = *std::exchange(state->shown, std::nullopt);
     // Redo is possible only right after an undo.
-    const bool undone = changes && session.history().actions().can_redo();
+    const bool undone = changes && session.history().can_redo();
     if (undone) restore_selection(session, shown);
     ended(!changes ? End::Gone : undone ? End::Undone : End::Kept);
   });

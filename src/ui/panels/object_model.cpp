@@ -7,6 +7,7 @@
 
 #include "ui/look/theme.h"
 #include "ui/panels/object_look.h"
+#include "ui/sharing/sharing_panel.h"
 
 namespace icome::ui {
 namespace {
@@ -32,12 +33,14 @@ QVariant ObjectModel::data(const QModelIndex& index, int role) const {
   switch (role) {
     case Qt::DisplayRole:
     case Qt::AccessibleTextRole:
-      return shown_name(world(), id);
+      return shown_name(world(), id) + holder_words(id);
     case Qt::EditRole:
       return QString::fromStdString(it->name);
     case Qt::DecorationRole:
+      if (const auto holder = session_.sharing().holder_of(id)) return dot_of(holder->colour);
       return kept_icon(icon_of(world(), *it));
     case Qt::ForegroundRole:
+      if (session_.sharing().holder_of(id)) return QBrush(colours().faint);
       return it->name.empty() ? QVariant(QBrush(colours().faint)) : QVariant();
     case Qt::ToolTipRole:
       return tip_of(description(world(), id));
@@ -46,6 +49,12 @@ QVariant ObjectModel::data(const QModelIndex& index, int role) const {
     default:
       return {};
   }
+}
+
+/// " - Ann", of what another holds.
+QString ObjectModel::holder_words(world::ObjectId id) const {
+  const auto holder = session_.sharing().holder_of(id);
+  return holder && holder->object == id ? " \u2013 " + shortened(one_line(holder->name)) : QString();
 }
 
 bool ObjectModel::setData(const QModelIndex& index, const QVariant& value, int role) {

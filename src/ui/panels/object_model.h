@@ -38,6 +38,8 @@ class ObjectModel : public QAbstractItemModel {
   static std::vector<world::ObjectId> objects_of(const QMimeData& data);
 
  private:
+  QString holder_words(world::ObjectId id) const;
+
   session::Session& session_;
   std::function<void(const QString&)> refused_ = {};
 };

@@ -224,6 +224,10 @@ void WorldTree::rename() {
   if (view.currentIndex().isValid()) view.edit(view.currentIndex());
 }
 
+void WorldTree::show_holders() {
+  for (ObjectView* it : {parts_->tree, parts_->list}) it->viewport()->update();
+}
+
 bool WorldTree::finish_typing() {
   const int before = parts_->refusals;
   parts_->view().finish_editing();

@@ -20,6 +20,8 @@ class WorldTree final : public QWidget {
   void rename();
   /// Commits the name that is being typed; false: it was refused, and the panel tells why.
   bool finish_typing();
+  /// Shows who holds what, as that has changed.
+  void show_holders();
   /// Puts the keyboard's focus into the search box.
   void search();
 

@@ -158,8 +158,8 @@ void StudyWindow::show_look() {
   session::DisplayWish wish;
   wish.look.above = its.above;
   wish.look.below = its.below;
-  wish.look.selection = its.selection;
-  wish.look.selection_width = int(std::lround(wish.look.selection_width * devicePixelRatio()));
+  wish.selection = its.selection;
+  wish.look.outline_width = int(std::lround(wish.look.outline_width * devicePixelRatio()));
   wish.look.passes = 16;
   stage_.set_look(wish);
 }

@@ -100,6 +100,7 @@ void MainWindow::make_menus() {
   views_.fill(*view);
   view->addSeparator();
   add_action(*view, "view.devices", "&Devices\u2026", {}, [this] { show_devices(); });
+  add_action(*view, "view.people", "&People\u2026", {}, [this] { show_people(); });
   make_tool_menu(*menuBar()->addMenu("&Tools"));
   QMenu* window = menuBar()->addMenu("&Window");
   for (QDockWidget* dock : findChildren<QDockWidget*>()) window->addAction(dock->toggleViewAction());
@@ -166,6 +167,12 @@ void MainWindow::show_devices() {
   devices_dock_->show();
   devices_dock_->raise();
   if (QWidget* const stop = first_stop(*devices_)) go_to(*stop);
+}
+
+void MainWindow::show_people() {
+  people_dock_->show();
+  people_dock_->raise();
+  if (QWidget* const stop = first_stop(*people_)) go_to(*stop);
 }
 
 void MainWindow::stop_asking() {
@@ -257,8 +264,8 @@ void MainWindow::show_scene_menu(QPointF at) {
 }
 
 void MainWindow::next_part() {
-  const std::array<QWidget*, 8> parts{scene_,      banner_,    shaping_, tree_,
-                                      properties_, operation_, devices_, hand_};
+  const std::array<QWidget*, 9> parts{scene_,     banner_,  shaping_, tree_, properties_,
+                                      operation_, devices_, people_,  hand_};
   const QWidget* const focus = QApplication::focusWidget();
   auto found = std::find_if(parts.begin(), parts.end(),
                             [&](const QWidget* it) { return focus && it->isAncestorOf(focus); });

@@ -16,12 +16,13 @@
 
 #include "ui/forms/elided_label.h"
 #include "ui/look/icons.h"
+#include "ui/panels/object_look.h"
 #include "ui/window/status_strip.h"
 
 namespace icome::ui {
 namespace {
 
-constexpr int kLayout = 3;  // counts up when docks and bars change, so that old layouts are not restored
+constexpr int kLayout = 4;  // counts up when docks and bars change, so that old layouts are not restored
 
 bool same_file(const std::filesystem::path& one, const std::filesystem::path& other) {
   std::error_code error;
@@ -125,6 +126,10 @@ void MainWindow::make_center() {
   technique_->setToolTip(
       "By which the hands select, hold and travel: Tools > Technique chooses another, or touch");
   statusBar()->addWidget(hint_, 1);
+  sharing_ = new QLabel(this);
+  sharing_->setObjectName("status.sharing");
+  sharing_->setAccessibleName("Connection to the server of the design");
+  statusBar()->addPermanentWidget(sharing_);
   statusBar()->addPermanentWidget(technique_);
   statusBar()->addPermanentWidget(count_);
 }
@@ -148,6 +153,10 @@ void MainWindow::make_docks() {
   devices_dock_ = make_dock(this, "dock.devices", "Devices", devices_, Qt::RightDockWidgetArea);
   tabifyDockWidget(properties, devices_dock_);
   devices_dock_->hide();
+  people_ = new SharingPanel(session_, {.open = [this] { files_.choose_address(); }}, this);
+  people_dock_ = make_dock(this, "dock.people", "People", people_, Qt::RightDockWidgetArea);
+  tabifyDockWidget(properties, people_dock_);
+  people_dock_->hide();
   resizeDocks({world, properties}, {60 * kGrid, 80 * kGrid}, Qt::Horizontal);
 }
 
@@ -160,12 +169,13 @@ void MainWindow::restore_layout() {
 }
 
 void MainWindow::begin(const std::filesystem::path& design) {
+  const bool is_address = session::SessionSharing::is_address(design.string());
   auto works = session_.files().recoverable();
   // The newest work on the design; without a design, the newest of all.
   std::stable_sort(works.begin(), works.end(),
                    [](const auto& a, const auto& b) { return a.changed > b.changed; });
   const auto wanted = std::find_if(works.begin(), works.end(), [&](const session::RecoverableWork& it) {
-    return design.empty() || (!it.design.empty() && same_file(it.design, design));
+    return !is_address && (design.empty() || (!it.design.empty() && same_file(it.design, design)));
   });
   if (wanted != works.end()) {
     files_.recover(wanted->journal);
@@ -191,6 +201,7 @@ void MainWindow::tick() {
   show_progress();
   show_title();
   show_count();
+  show_sharing();
   const auto labelled = wanted_label();
   if (is_stale_ || tools_.drag_words() != drag_words_ || operation_->remark() != remark_ ||
       techniques_.hint() != technique_hint_)
@@ -209,6 +220,7 @@ void MainWindow::hear(const session::SessionEvent& event) {
   if (event.kind == Kind::Opened || event.kind == Kind::Recovered) {
     banner_->forget("edit");
     session_.view().home();
+    if (session_.sharing().state()) show_people();
   }
 }
 
@@ -274,6 +286,26 @@ void MainWindow::show_title() {
   setWindowModified(session_.files().modified());
 }
 
+/// The connection of a shared design in the status bar, and what others do in tree and scene.
+void MainWindow::show_sharing() {
+  const QString state = sharing_words(session_);
+  if (state != sharing_state_) {
+    sharing_state_ = state;
+    sharing_->setText(state);
+    sharing_->setVisible(!state.isEmpty());
+    sharing_->setToolTip(tip_of(sharing_tip(session_)));
+  }
+  QString floor;
+  for (const auto& person : session_.sharing().people()) {
+    floor += QString("%1 %2:").arg(person.author).arg(one_line(person.name));
+    for (const world::ObjectId id : person.holds) floor += QString(" %1").arg(id.value);
+  }
+  if (floor == floor_state_) return;
+  floor_state_ = floor;
+  tree_->show_holders();
+  is_stale_ = true;
+}
+
 /// The object that has its name written above it; nothing: none has.
 std::optional<world::ObjectId> MainWindow::wanted_label() const {
   if (tools_.hovered()) return tools_.hovered();
@@ -287,14 +319,18 @@ void MainWindow::show_look() {
   session::DisplayWish wish;
   wish.look.above = its.above;
   wish.look.below = its.below;
-  wish.look.selection = its.selection;
-  wish.look.selection_width = int(std::lround(wish.look.selection_width * pixel_ratio_));
+  wish.selection = its.selection;
+  wish.look.outline_width = int(std::lround(wish.look.outline_width * pixel_ratio_));
   wish.look.shadows = views_.shadows();
   wish.look.grid = views_.grid();
   wish.look.grid_colour = its.grid;
   wish.look.passes = 16;
   wish.workspace = its.workspace;
   wish.spared_sign = spared_sign_.picture("Force held down to spare the motors", pixel_ratio_);
+  const auto people = session_.sharing().people();
+  for (const auto& it : people)
+    if (!it.is_me)
+      wish.name_signs[it.author] = name_signs_[it.author].picture(shortened(one_line(it.name)), pixel_ratio_);
   if (labelled_) {
     if (auto panel = label_.panel(session_, *labelled_, pixel_ratio_))
       wish.look.overlay.panels.push_back(std::move(*panel));
@@ -339,6 +375,13 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 bool MainWindow::offer_drop(QDropEvent& drop, bool over_scene) {
+  const QString text = drop.mimeData()->text().trimmed();
+  if (session::SessionSharing::is_address(text.toStdString())) {
+    drop.setDropAction(Qt::CopyAction);
+    drop.accept();
+    if (drop.type() == QEvent::Drop) files_.open_address(text);
+    return true;
+  }
   const QList<QUrl> urls = drop.mimeData()->urls();
   if (urls.size() != 1 || !urls.front().isLocalFile()) return false;
   drop.setDropAction(Qt::CopyAction);

@@ -17,6 +17,7 @@
 #include "ui/look/theme.h"
 #include "ui/panels/property_panel.h"
 #include "ui/panels/world_tree.h"
+#include "ui/sharing/sharing_panel.h"
 #include "ui/tools/scene_tools.h"
 #include "ui/tools/shape_options.h"
 #include "ui/window/banner.h"
@@ -76,6 +77,8 @@ class MainWindow final : public QMainWindow {
   void ask(const interaction::Operation& operation);
   void stop_asking();
   void show_devices();
+  void show_people();
+  void show_sharing();
   void find_command();
   bool offer_drop(QDropEvent& drop, bool over_scene);
   void drop_picture(const std::filesystem::path& file, const SceneInput& input);
@@ -101,15 +104,21 @@ class MainWindow final : public QMainWindow {
   QDockWidget* operation_dock_ = nullptr;  // hidden while there is no operation in it
   DevicePanel* devices_ = nullptr;
   QDockWidget* devices_dock_ = nullptr;
+  SharingPanel* people_ = nullptr;
+  QDockWidget* people_dock_ = nullptr;
   QWidget* hand_ = nullptr;
   QLabel* hint_ = nullptr;
   QLabel* technique_ = nullptr;  // the technique in use; hidden for touch
+  QLabel* sharing_ = nullptr;    // of a design on a server; hidden for others
   QLabel* count_ = nullptr;
   QAction* tool_actions_[kToolCount] = {};
   QTimer timer_;
   bool is_stale_ = true;  // hint and look must be refreshed
   SceneLabel label_;
   SceneWords spared_sign_;
+  std::map<std::uint32_t, SceneWords> name_signs_;  // of others at work in the design
+  QString sharing_state_;                           // as shown
+  QString floor_state_;                             // likewise: who holds what
   std::optional<world::ObjectId> labelled_ = {};
   std::string drag_words_;    // as shown
   QString remark_;            // of an operation, as shown

@@ -113,6 +113,23 @@ Note note_of(const SessionEvent& event) {
       note.topic = device_topic(event);
       note.weight = Weight::Passing;
       break;
+    case SessionEvent::Kind::ServerLost:
+      note.topic = "server";
+      note.weight = Weight::Warning;
+      break;
+    case SessionEvent::Kind::ServerBack:
+      note.topic = "server";
+      note.weight = Weight::Passing;
+      break;
+    case SessionEvent::Kind::SharingEnds:
+      note.topic = "server";
+      note.weight = Weight::Error;
+      note.remedies = {Remedy::SaveAs};
+      break;
+    case SessionEvent::Kind::Dropped:
+      note.topic = event.text;
+      note.weight = Weight::Warning;
+      break;
     case SessionEvent::Kind::NotAsItIs:
       note.topic = "not as it is";
       note.weight = Weight::Plain;

@@ -56,7 +56,9 @@ const std::shared_ptr<const charts::Image>& SceneWords::picture(const QString& t
 std::optional<render::SceneOverlay::Panel> SceneLabel::panel(const session::Session& session,
                                                              world::ObjectId id, double pixel_ratio) {
   const world::PhysicalObject* object = session.world().find(id);
-  const QString text = object ? shortened(one_line(object->name), kLongestName) : QString();
+  QString text = object ? shortened(one_line(object->name), kLongestName) : QString();
+  if (const auto holder = session.sharing().holder_of(id))
+    text += QString("%1%2 has it").arg(text.isEmpty() ? "" : " \u2013 ", shortened(one_line(holder->name)));
   if (text.isEmpty()) return std::nullopt;
   const base::Bounds bounds = world::bounds(session.world(), id);
   if (bounds.isEmpty()) return std::nullopt;

@@ -24,7 +24,7 @@ class SceneWords {
   std::shared_ptr<const charts::Image> picture_ = nullptr;  // of that look
 };
 
-/// The name of an object, written above it in the scene. Used on main only.
+/// The name of an object, written above it in the scene, and who else holds it. Used on main only.
 class SceneLabel {
  public:
   /// The panel for this object in its present state, sharp at this ratio of screen to device-independent

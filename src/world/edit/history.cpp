@@ -33,12 +33,11 @@ bool covers(const Edit& older, const Edit& newer) {
   return vertices && moved && vertices->id == moved->id && vertices->vertices == moved->vertices;
 }
 
-/// Does the older inverse undo both for every step of a drag of one thing or many?
-bool covers_both(const Edit& older, const Edit& newer) {
+}  // namespace
+
+bool takes_back_both(const Edit& older, const Edit& newer) {
   return std::ranges::equal(steps_of(older), steps_of(newer), covers);
 }
-
-}  // namespace
 
 History::Action History::action_of(const std::string& name, Edit inverse) {
   const std::size_t bytes = memory_of(inverse);
@@ -93,7 +92,7 @@ base::Result<void> History::extend(const EditSink& sink, const Edit& edit) {
   if (!inverse) return tl::unexpected(inverse.error());
   keep();
   Action& action = done_.back();
-  if (covers_both(action.inverses.back(), *inverse)) return {};
+  if (takes_back_both(action.inverses.back(), *inverse)) return {};
   action.bytes += memory_of(*inverse);
   action.inverses.push_back(std::move(*inverse));
   forget_oldest();

@@ -7,6 +7,10 @@
 
 namespace icome::world {
 
+/// Does the older of two inverses take back what both were made by? It does for the steps of a drag of one
+/// thing or many: whole shapes and places, whatever was done to them.
+bool takes_back_both(const Edit& older, const Edit& newer);
+
 /// The actions that a person did and can take back: one entry for each action, whatever edits it took. Owns
 /// the inverses; knows the world, or whatever performs its edits, only during a call. When they take more
 /// memory than allowed, the oldest actions can no longer be taken back; the last one always can.

@@ -118,6 +118,70 @@ TEST(Replica, MergesTheStepsOfADragThatWereNotSentYet) {
   EXPECT_EQ(it.x(it.leg), 0.0) << "one drag, one action";
 }
 
+TEST(Replica, UndoesADragWhoseStepsWereOrderedMeanwhileAtOnce) {
+  Copy it;
+  for (std::uint64_t step = 0; step < 3; ++step) {
+    const world::EditGroup both{{world::PlaceObject{it.leg, at(1.0 + double(step), 0, 0)},
+                                 world::PlaceObject{it.lamp, at(2.0 + double(step), 0, 0)}}};
+    const std::uint64_t number = it.replica.perform(both, "Move two", {}, step > 0).value();
+    EXPECT_TRUE(it.replica.next_to_send());
+    ASSERT_TRUE(it.replica.accepted({number, 11 + step}));
+    (void)it.replica.durable({11 + step});
+  }
+  ASSERT_TRUE(it.replica.undo());
+  EXPECT_EQ(it.x(it.leg), 0.0);
+  EXPECT_EQ(it.x(it.lamp), 0.0);
+  EXPECT_FALSE(it.replica.can_undo()) << "one drag, one action";
+  ASSERT_TRUE(it.replica.redo());
+  EXPECT_EQ(it.x(it.leg), 3.0);
+}
+
+TEST(Replica, MergesTheStepsOfADragOfManyThings) {
+  Copy it;
+  for (const double x : {1.0, 2.0}) {
+    const world::EditGroup both{{world::PlaceObject{it.leg, at(x, 0, 0)}, world::PlaceObject{it.lamp, at(x, 0, 0)}}};
+    ASSERT_TRUE(it.replica.perform(both, "Move two", {}, x > 1.0));
+  }
+  EXPECT_EQ(it.replica.pending(), 1U);
+}
+
+TEST(Replica, UndoesTheRestOfADragWhoseFirstStepWasRefused) {
+  Copy it;
+  const std::uint64_t first = it.replica.perform(world::PlaceObject{it.leg, at(1, 0, 0)}, "Move leg").value();
+  EXPECT_TRUE(it.replica.next_to_send());
+  const std::uint64_t then =
+      it.replica.perform(world::PlaceObject{it.leg, at(2, 0, 0)}, "Move leg", {}, true).value();
+  EXPECT_NE(first, then);
+  ASSERT_TRUE(it.replica.rejected({first, "Ann holds leg.", kAnnElsewhere}));
+  EXPECT_EQ(it.x(it.leg), 2.0);
+  ASSERT_TRUE(it.replica.undo());
+  EXPECT_EQ(it.x(it.leg), 0.0);
+}
+
+TEST(Replica, TellsOfAllThatItsWorldGoesThrough) {
+  Copy it;
+  world::World copy = it.replica.world();
+  it.replica.on_change([&](const world::Edit* edit) {
+    if (edit == nullptr) {
+      copy = it.replica.world();
+    } else {
+      ASSERT_TRUE(world::apply(copy, *edit));
+    }
+  });
+  const auto expect_same = [&] { EXPECT_EQ(hash(copy), hash(it.replica.world())); };
+  ASSERT_TRUE(it.replica.perform(world::PlaceObject{it.leg, at(1, 0, 0)}, "Move leg"));
+  expect_same();
+  ASSERT_TRUE(it.replica.ordered(ordered(11, kAnnElsewhere, world::PlaceObject{it.leg, at(2, 0, 0)})));
+  expect_same();
+  EXPECT_EQ(copy.find(it.leg)->parent_from_object.translation().x(), 1.0);
+  ASSERT_TRUE(it.replica.rewind());
+  expect_same();
+  ASSERT_TRUE(it.replica.begin(it.start, 12, {}));
+  expect_same();
+  ASSERT_TRUE(it.replica.undo());
+  expect_same();
+}
+
 TEST(Replica, GoesBackToWhatIsDurableWhenTheConnectionIsLost) {
   Copy it;
   const std::uint64_t mine = it.replica.perform(world::PlaceObject{it.leg, at(1, 0, 0)}, "Move leg").value();

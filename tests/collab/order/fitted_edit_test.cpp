@@ -39,10 +39,10 @@ TEST(FittedEdit, IsTakenBackByItsInverse) {
   for (int i = 0; i < 2'000; ++i) {
     const world::Edit edit = edits.next(world);
     const std::uint64_t before = hash(world);
-    const auto inverse = apply_fitted(world, edit);
-    if (!inverse) continue;
+    const auto done = apply_fitted(world, edit);
+    if (!done) continue;
     ++applied;
-    const auto again = world::apply(world, *inverse);
+    const auto again = world::apply(world, done->inverse);
     ASSERT_TRUE(again) << again.error().message;
     ASSERT_EQ(hash(world), before);
     ASSERT_TRUE(world::apply(world, *again));

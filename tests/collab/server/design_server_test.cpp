@@ -1,17 +1,10 @@
 // A server on its threads and clients beside it, over TLS.
 #include "collab/server/design_server.h"
 
-#include <gtest/gtest.h>
-
-#include <atomic>
-#include <filesystem>
-#include <thread>
-
 #include "collab/client/connection.h"
 #include "collab/client/integration.h"
-#include "collab/protocol/address.h"
-#include "collab/storage/sqlite_op_log.h"
-#include "collab/storage/store_folder.h"
+#include "collab/client/joining.h"
+#include "collab/server/served_design.h"
 #include "world/sample_world.h"
 
 namespace icome::collab {
@@ -19,46 +12,9 @@ namespace {
 
 constexpr std::chrono::milliseconds kPatient{60'000};
 
-/// A server in a folder of its own, with one design, on a thread.
 class DesignServerTest : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("icome_server_") + test->name());
-    std::filesystem::remove_all(folder_);
-    start({});
-  }
-  void TearDown() override {
-    stop();
-    std::filesystem::remove_all(folder_);
-  }
-
-  void start(const Endpoint& listen) {
-    ServeSettings settings;
-    settings.store = folder_;
-    settings.listen = listen;
-    auto server = DesignServer::create(settings);
-    ASSERT_TRUE(server) << server.error().message;
-    server_ = std::move(*server);
-    ends_ = false;
-    thread_ = std::thread([this] { EXPECT_TRUE(server_->run([this] { return ends_.load(); })); });
-  }
-  void stop() {
-    ends_ = true;
-    if (thread_.joinable()) thread_.join();
-    server_.reset();
-  }
-
-  DesignAddress address(Role role) {
-    const StoreFolder folder = StoreFolder::open(folder_).value();
-    SqliteOpLog log = SqliteOpLog::open(folder.designs()).value();
-    if (!log.find("table").value()) (void)log.create("table");
-    const TokenSigner signer = TokenSigner::open(folder.token_key()).value();
-    const auto token =
-        signer.sign({make_invitation_id().value(), "table", role, wall_milliseconds() + 600'000});
-    return {server_->endpoint().host, server_->endpoint().port, "table", token.value(),
-            server_->fingerprint()};
-  }
+  DesignAddress address(Role role) const { return served_.address(role); }
   static std::unique_ptr<Connection> joined(const DesignAddress& address, const std::string& name) {
     auto connection = Connection::create(address, {make_client_key().value(), name, 0xff, "test"}).value();
     works(*connection, [&] { return connection->talk().state() == ConversationState::Live; });
@@ -84,10 +40,7 @@ class DesignServerTest : public testing::Test {
     return object;
   }
 
-  std::filesystem::path folder_;
-  std::unique_ptr<DesignServer> server_;
-  std::atomic<bool> ends_ = false;
-  std::thread thread_;
+  ServedDesign served_;
 };
 
 TEST_F(DesignServerTest, ShowsToAllWhatOneDoes) {
@@ -103,10 +56,9 @@ TEST_F(DesignServerTest, ClientsGoOnByThemselvesWhenItIsBack) {
   const auto ann = joined(address(Role::Edit), "Ann");
   makes_box(*ann, "first");
   saves(*ann);
-  const Endpoint listens = server_->endpoint();
-  stop();
+  served_.stop();
   makes_box(*ann, "while it was away");
-  start(listens);
+  served_.start();
   saves(*ann);
   const auto bob = joined(address(Role::View), "Bob");
   EXPECT_EQ(bob->talk().replica().world().objects().size(), 2U);
@@ -139,8 +91,12 @@ TEST_F(DesignServerTest, LetsNobodyChangeWhatAnotherHolds) {
   ann->talk().select(item_of(box));
   works(*ann, [&] { return ann->talk().holds().contains(item_of(box)); });
   works(*bob, [&] { return bob->talk().holds().contains(item_of(box)); });
-  const auto number = bob->talk().perform(world::PlaceObject{box, world::at(1, 0, 0)}, "Move box");
-  ASSERT_TRUE(number);
+  const world::Edit move = world::PlaceObject{box, world::at(1, 0, 0)};
+  const auto number = bob->talk().perform(move, "Move box");
+  ASSERT_FALSE(number);
+  EXPECT_EQ(number.error().message, "Ann holds \"box\".");
+  // A client that does not look.
+  ASSERT_TRUE(bob->talk().replica().perform(move, "Move box"));
   std::optional<Dropped> dropped;
   works(*bob, [&] {
     for (Seen& seen : bob->talk().take_seen())

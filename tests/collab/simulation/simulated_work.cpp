@@ -53,6 +53,14 @@ void SimulatedWork::make_client(Client& client, bool same_key) {
   DesignAddress address{"server", 1, kDesign, token_, ""};
   client.talk =
       std::make_unique<Conversation>(address, ClientIdentity{client.key, "Ann", 1, "test"}, factory_);
+  client.copy = std::make_shared<world::World>();
+  client.talk->replica().on_change([this, talk = client.talk.get(), copy = client.copy](const world::Edit* it) {
+    if (it == nullptr) {
+      *copy = talk->replica().world();
+    } else if (!world::apply(*copy, *it)) {
+      fault_ = "A replica tells of an edit that does not apply to a copy of it.";
+    }
+  });
   client.edits.reset();
   client.link.reset();
   client.up = client.down = {};
@@ -149,7 +157,17 @@ void SimulatedWork::act(Client& client) {
       if (!holds.empty() && random_.index(4) == 0) talk.take_away(holds.begin()->first);
       break;
     default:
-      (void)talk.perform(client.edits->next(replica.world()), "Random", random_.index(2) == 0);
+      act_by_edit(talk, client.edits->next(replica.world()));
+  }
+}
+
+/// Some clients do not look who holds a thing.
+void SimulatedWork::act_by_edit(Conversation& talk, const world::Edit& edit) {
+  const bool goes_on = random_.index(2) == 0;
+  if (random_.index(4) == 0) {
+    (void)talk.replica().perform(edit, "Random", {}, goes_on);
+  } else {
+    (void)talk.perform(edit, "Random", goes_on);
   }
 }
 
@@ -280,6 +298,8 @@ std::string SimulatedWork::check_rest() {
   if (sequence != room.sequence()) return "The log ends elsewhere than the server's world.";
   for (const Client& client : clients_)
     if (hash(client.talk->replica().world()) != expected) return "A client's world and the server's differ.";
+  for (const Client& client : clients_)
+    if (hash(*client.copy) != expected) return "A copy that a replica leads along differs from it.";
   for (const auto& [author, number] : acknowledged_)
     if (!log_.appended().contains({author, number}))
       return fmt::format("Edit {} of author {} was acknowledged and is lost.", number, author);

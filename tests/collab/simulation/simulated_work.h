@@ -75,6 +75,7 @@ class SimulatedWork {
   struct Client {
     std::string key;
     std::unique_ptr<Conversation> talk;
+    std::shared_ptr<world::World> copy;  // led along by what the replica tells
     std::optional<LinkId> link;
     std::int64_t next_try = 0;
     std::unique_ptr<world::RandomEdits> edits;
@@ -84,6 +85,7 @@ class SimulatedWork {
   void step(bool is_rough);
   void weather_on(Client& client);
   void act(Client& client);
+  void act_by_edit(Conversation& talk, const world::Edit& edit);
   void connect(Client& client);
   void cut(Client& client, const std::string& why);
   void deliver(Client& client);

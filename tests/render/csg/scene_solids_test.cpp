@@ -232,8 +232,7 @@ TEST_F(SolidPictures, SelectedOnesHaveALineAround) {
   DrawnWorld it;
   const auto chosen = it.add(csg_shape(figure_5_6(1.0)), at(0.0, 0.0, 0.0), coloured(kBlue));
   SceneLook look = plain_look();
-  look.selected = {chosen};
-  look.selection = {0.0, 1.0, 0.0};
+  look.outlines = {{{chosen}, {0.0, 1.0, 0.0}}};
   const auto scene = published(it);
   expect_alike(scene, oblique(scene), look, "selected");
   const charts::Image image = shot(it, camera_at({0.0, 0.0, 4.0}), look, CsgWay::Images);

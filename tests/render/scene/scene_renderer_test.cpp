@@ -218,8 +218,7 @@ TEST(SceneRenderer, TheSelectionHasALineAround) {
   DrawnWorld it;
   const auto chosen = it.add(box(1.0), at(0.0, 0.0, 0.0), coloured(kBlue));
   SceneLook look = plain_look();
-  look.selected = {chosen};
-  look.selection = {0.0, 1.0, 0.0};
+  look.outlines = {{{chosen}, {0.0, 1.0, 0.0}}};
   const charts::Image image = drawn(it, camera_at({0.0, 0.0, 3.0}), look);
   EXPECT_TRUE(is_blue(middle(image)));
   bool found = false;

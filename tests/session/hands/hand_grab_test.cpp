@@ -29,12 +29,12 @@ class HandGrabTest : public OneHandTest {
 TEST_F(HandGrabTest, WhatIsHeldGoesAlongAsOneAction) {
   grab();
   EXPECT_EQ(session_->selection(), std::vector{box_});
-  EXPECT_EQ(session_->history().actions().undo_name(), "Add box") << "to press is to select";
+  EXPECT_EQ(session_->history().undo_name(), "Add box") << "to press is to select";
   const Vector3 from = session_->hands().pointer(0).tip;
   aim(Vector3(0.3, 0.7, 0.1));
   tip_at_rest(*session_);  // a hand under way would be elsewhere by the time it is asked
   session_->update();
-  EXPECT_EQ(session_->history().actions().undo_name(), "Move box");
+  EXPECT_EQ(session_->history().undo_name(), "Move box");
   EXPECT_FALSE(session_->hands().pointer(0).touching) << "what is held is not touched";
   let_go();
   const Vector3 place = box_place();
@@ -45,7 +45,7 @@ TEST_F(HandGrabTest, WhatIsHeldGoesAlongAsOneAction) {
   EXPECT_EQ(box_place(), place) << "it stays where it was left";
   ASSERT_TRUE(session_->history().undo());
   EXPECT_EQ(box_place(), Vector3::Zero());
-  EXPECT_EQ(session_->history().actions().undo_name(), "Add box");
+  EXPECT_EQ(session_->history().undo_name(), "Add box");
 }
 
 TEST_F(HandGrabTest, IsFeltToPullBackAndToWeigh) {
@@ -94,7 +94,7 @@ TEST_F(HandGrabTest, TakesTheRestOfTheSelectionAlong) {
   aim(Vector3(0.3, 0.7, 0.0));
   run_until(*session_, [&] { return box_place().x() > 0.1; });
   const Vector3 offset = box_place();
-  EXPECT_EQ(session_->history().actions().undo_name(), "Move 2 objects");
+  EXPECT_EQ(session_->history().undo_name(), "Move 2 objects");
   const Vector3 moved = session_->world().find(other)->parent_from_object.translation() - Vector3(5, 0, 0);
   EXPECT_NEAR((moved - offset).norm(), 0.0, 1e-12);
 }

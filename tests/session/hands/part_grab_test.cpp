@@ -38,7 +38,7 @@ TEST_F(PartGrabTest, AHoleGoesAlongWithTheHandAsOneActionAndPullsBack) {
   aim(Vector3(0.15, 0.1, 0.3));
   run_until(*session_, [&] { return tip().x() > 0.1 && session_->hands().pointer(0).force.x() < -0.1; });
   EXPECT_LT((hole_at() - (tip() - from)).norm(), 5e-3) << "it is where the hand is";
-  EXPECT_EQ(session_->history().actions().undo_name(), "Move operand 1 of block");
+  EXPECT_EQ(session_->history().undo_name(), "Move operand 1 of block");
   let_go();
   session_->settle();
   EXPECT_TRUE(session_->stage().pick({Vector3(-0.05, 0.0, 1.0), -Vector3::UnitZ()})) << "where the hole was";

@@ -62,7 +62,7 @@ TEST_F(PointGrabTest, AVertexGoesAlongWithTheHandAsOneAction) {
   ASSERT_TRUE(session_->hands().holds(0));
   EXPECT_LT((vertices()[12] - rest[12] - (tip() - from)).norm(), 2e-3) << "it is where the hand is";
   EXPECT_EQ(vertices()[13], rest[13]);
-  EXPECT_EQ(session_->history().actions().undo_name(), "Drag vertex of sheet");
+  EXPECT_EQ(session_->history().undo_name(), "Drag vertex of sheet");
   let_go();
   const std::vector<Vector3> left = vertices();
   aim(Vector3(0.0, 0.5, 0.0));
@@ -70,7 +70,7 @@ TEST_F(PointGrabTest, AVertexGoesAlongWithTheHandAsOneAction) {
   EXPECT_EQ(vertices(), left) << "it stays where it was left";
   ASSERT_TRUE(session_->history().undo());
   EXPECT_EQ(hash(session_->world()), before);
-  EXPECT_EQ(session_->history().actions().undo_name(), "Add sheet");
+  EXPECT_EQ(session_->history().undo_name(), "Add sheet");
 }
 
 TEST_F(PointGrabTest, PullsBackTheMoreTheFartherItWasTaken) {
@@ -127,7 +127,7 @@ TEST_F(PointGrabTest, APointOfTheLatticeDeformsTheSelection) {
   const Vector3 from = tip();
   aim(corner + Vector3(0.0, 0.2, 0.0));
   run_until(*session_, [&] { return tip().y() > corner.y() + 0.15; });
-  EXPECT_EQ(session_->history().actions().undo_name(), "Deform sheet");
+  EXPECT_EQ(session_->history().undo_name(), "Deform sheet");
   const Vector3 moved = session_->hands().shaping()->cage()->lattice().points[7];
   EXPECT_LT((moved - corner - (tip() - from)).norm(), 2e-3);
   // The sheet is in the middle of a box that was made thick.

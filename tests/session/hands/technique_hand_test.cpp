@@ -98,7 +98,7 @@ TEST_F(TechniqueHandTest, ARaySelectsAtADistanceWhatItMeetsFirst) {
   EXPECT_EQ(session_->selection(), std::vector{far});
   EXPECT_TRUE(session_->hands().holds(0));
   press(0, 0);
-  EXPECT_EQ(session_->history().actions().undo_name(), "Add aside") << "a press without a way moves nothing";
+  EXPECT_EQ(session_->history().undo_name(), "Add aside") << "a press without a way moves nothing";
   turn(0, Vector3::UnitY(), -std::atan2(1.0, 3.1));
   press(0, 1);
   EXPECT_EQ(session_->selection(), std::vector{aside});
@@ -144,10 +144,10 @@ TEST_F(TechniqueHandTest, WhatHangsOnARayIsMovedAsOneAction) {
   run_until(*session_, [&] { return where(box).z() < -3.2; });
   press(0, 0);
   EXPECT_FALSE(session_->hands().holds(0));
-  EXPECT_EQ(session_->history().actions().undo_name(), "Move box");
+  EXPECT_EQ(session_->history().undo_name(), "Move box");
   ASSERT_TRUE(session_->history().undo());
   EXPECT_EQ(where(box), Vector3(0.0, 0.0, -3.0));
-  EXPECT_EQ(session_->history().actions().undo_name(), "Add box");
+  EXPECT_EQ(session_->history().undo_name(), "Add box");
 }
 
 TEST_F(TechniqueHandTest, GoGoReachesWhatTheArmDoesNot) {
@@ -207,7 +207,7 @@ TEST_F(TechniqueHandTest, FlyingTakesThePointerAlong) {
   const Vector3 there = eye();
   run_until(*session_, [&] { return (session_->hands().pointer(0).tip - eye() - from_eye).norm() < 1e-3; });
   EXPECT_EQ(eye(), there) << "nobody flies without the button";
-  EXPECT_FALSE(session_->history().actions().undo_name() != "Add box") << "to travel is no action";
+  EXPECT_FALSE(session_->history().undo_name() != "Add box") << "to travel is no action";
 }
 
 TEST_F(TechniqueHandTest, ATeleportArrivesSoftlyWhereTheHandPointed) {

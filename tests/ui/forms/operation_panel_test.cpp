@@ -69,7 +69,7 @@ TEST_F(OperationPanelTest, NothingIsAskedToBeginWith) {
   EXPECT_FALSE(panel_.first_field());
   EXPECT_FALSE(part<QPushButton>("apply").isEnabled());
   panel_.apply();
-  EXPECT_FALSE(session().history().actions().can_undo());
+  EXPECT_FALSE(session().history().can_undo());
 }
 
 TEST_F(OperationPanelTest, MakesWhatWasSaidInOneActionAndSelectsIt) {
@@ -82,10 +82,10 @@ TEST_F(OperationPanelTest, MakesWhatWasSaidInOneActionAndSelectsIt) {
   ASSERT_TRUE(selected());
   EXPECT_EQ(selected()->name, "seat");
   EXPECT_EQ(selected()->parent_from_object.translation(), base::Vector3(0.15, 0, 0));
-  EXPECT_EQ(session().history().actions().undo_name(), "Create");
+  EXPECT_EQ(session().history().undo_name(), "Create");
   ASSERT_TRUE(session().history().undo());
   EXPECT_TRUE(world().objects().empty());
-  EXPECT_FALSE(session().history().actions().can_undo());
+  EXPECT_FALSE(session().history().can_undo());
 }
 
 TEST_F(OperationPanelTest, SaysWhyNothingWasDone) {
@@ -93,13 +93,13 @@ TEST_F(OperationPanelTest, SaysWhyNothingWasDone) {
   QTest::keyClick(&panel_, Qt::Key_Return, Qt::ControlModifier);
   part<QPushButton>("apply").click();
   EXPECT_TRUE(explanation().startsWith("'objects' is missing")) << explanation().toStdString();
-  EXPECT_FALSE(session().history().actions().can_undo());
+  EXPECT_FALSE(session().history().can_undo());
   type("objects", "ghost");
   EXPECT_EQ(explanation(), "");
   part<QPushButton>("apply").click();
   EXPECT_TRUE(explanation().startsWith("there is no object named 'ghost'")) << explanation().toStdString();
   EXPECT_TRUE(field<QLineEdit>("objects").property("refused").toBool());
-  EXPECT_FALSE(session().history().actions().can_undo());
+  EXPECT_FALSE(session().history().can_undo());
 }
 
 TEST_F(OperationPanelTest, DoesNothingOverWhatWasRefusedElsewhere) {
@@ -125,7 +125,7 @@ TEST_F(OperationPanelTest, FollowsSelectionAndNames) {
   EXPECT_TRUE(world().objects().empty());
   EXPECT_EQ(field<QLineEdit>("objects").text(), "");
   session().files().make_new();
-  ASSERT_FALSE(session().history().actions().can_undo());
+  ASSERT_FALSE(session().history().can_undo());
 }
 
 TEST_F(OperationPanelTest, EscapeGivesUp) {

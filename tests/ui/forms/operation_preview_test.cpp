@@ -83,9 +83,9 @@ class OperationPreviewTest : public DesktopTest {
   void expect_as_before() {
     EXPECT_EQ(hash(world()), before_);
     EXPECT_EQ(session().selection(), std::vector{box_});
-    EXPECT_EQ(session().history().actions().undo_name(), "Create");
-    EXPECT_EQ(session().history().actions().redo_name(), "Rename");
-    EXPECT_FALSE(session().history().actions().trying());
+    EXPECT_EQ(session().history().undo_name(), "Create");
+    EXPECT_EQ(session().history().redo_name(), "Rename");
+    EXPECT_FALSE(session().history().trying());
   }
 
   bool may_begin_ = true;
@@ -124,14 +124,14 @@ TEST_F(OperationPreviewTest, ApplyKeepsItAsOneAction) {
   const ObjectId seat = session().selection().front();
   EXPECT_EQ(world().find(seat)->name, "seat");
   EXPECT_EQ(place(seat), Vector3(0.15, 0, 0));
-  EXPECT_FALSE(session().history().actions().can_redo());
+  EXPECT_FALSE(session().history().can_redo());
   // Nothing more comes by itself.
   session().select({box_});
   settle();
   EXPECT_EQ(world().objects().size(), 2U);
   ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(hash(world()), before_);
-  EXPECT_EQ(session().history().actions().undo_name(), "Create");
+  EXPECT_EQ(session().history().undo_name(), "Create");
 }
 
 TEST_F(OperationPreviewTest, WhatIsWrongIsExplainedAtItsFieldAndTakesItBack) {
@@ -171,7 +171,7 @@ TEST_F(OperationPreviewTest, WhatAnOperationRefusesIsTold) {
   part<QCheckBox>("parameter.as_mesh").setChecked(true);
   settle();
   EXPECT_EQ(foot(), "");
-  EXPECT_TRUE(session().history().actions().trying());
+  EXPECT_TRUE(session().history().trying());
   part<QPushButton>("operation.close").click();
   expect_as_before();
 }
@@ -224,9 +224,9 @@ TEST_F(OperationPreviewTest, AnotherEditKeepsIt) {
   QTest::keyClick(&panel_, Qt::Key_Escape);
   EXPECT_EQ(place(box_), Vector3(0.005, 0, 0));
   EXPECT_EQ(world().find(box_)->name, "chest");
-  EXPECT_EQ(session().history().actions().undo_name(), "Rename");
+  EXPECT_EQ(session().history().undo_name(), "Rename");
   ASSERT_TRUE(session().history().undo());
-  EXPECT_EQ(session().history().actions().undo_name(), "Move");
+  EXPECT_EQ(session().history().undo_name(), "Move");
   ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(hash(world()), before_);
 }
@@ -238,15 +238,15 @@ TEST_F(OperationPreviewTest, UndoingTakesItBackAlone) {
   ASSERT_TRUE(session().history().undo());
   settle();
   EXPECT_EQ(hash(world()), before_);
-  EXPECT_EQ(session().history().actions().undo_name(), "Create");
-  EXPECT_EQ(session().history().actions().redo_name(), "Move");
+  EXPECT_EQ(session().history().undo_name(), "Create");
+  EXPECT_EQ(session().history().redo_name(), "Move");
   EXPECT_EQ(close_text(), "&Close");
   // Until something else is said.
   type("by", "6");
   settle();
   EXPECT_EQ(place(box_), Vector3(0.006, 0, 0));
   part<QPushButton>("operation.close").click();
-  EXPECT_EQ(session().history().actions().redo_name(), "Move");
+  EXPECT_EQ(session().history().redo_name(), "Move");
 }
 
 TEST_F(OperationPreviewTest, GoesWithItsDesign) {
@@ -259,7 +259,7 @@ TEST_F(OperationPreviewTest, GoesWithItsDesign) {
   EXPECT_EQ(close_text(), "&Close");
   EXPECT_EQ(foot(), "");
   panel_.leave();
-  EXPECT_FALSE(session().history().actions().can_undo());
+  EXPECT_FALSE(session().history().can_undo());
 }
 
 TEST_F(OperationPreviewTest, StaysWhenItIsSavedAndGoesWhenItIsLeft) {
@@ -298,7 +298,7 @@ TEST_F(OperationPreviewTest, IsNotShownToWhoDoesNotWantIt) {
   wanted.setChecked(false);
   part<QPushButton>("operation.apply").click();
   EXPECT_EQ(place(box_), Vector3(0.006, 0, 0));
-  EXPECT_EQ(session().history().actions().undo_name(), "Move");
+  EXPECT_EQ(session().history().undo_name(), "Move");
 }
 
 TEST_F(OperationPreviewTest, DoesNotBeginOverWhatWasRefusedElsewhere) {

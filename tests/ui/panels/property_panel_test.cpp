@@ -122,7 +122,7 @@ TEST_F(PropertyPanelTest, MovesAllThatIsSelectedInOneAction) {
   type(field<QuantityField>("Position, mm x"), "3 cm");
   EXPECT_DOUBLE_EQ(world().find(one_)->parent_from_object.translation().x(), 0.03);
   EXPECT_DOUBLE_EQ(world().find(two_)->parent_from_object.translation().x(), 0.03);
-  EXPECT_EQ(session().history().actions().undo_name(), "Move 2 objects");
+  EXPECT_EQ(session().history().undo_name(), "Move 2 objects");
   EXPECT_EQ(field<QuantityField>("Position, mm x").text(), "30");
   ASSERT_TRUE(session().history().undo());
   EXPECT_DOUBLE_EQ(world().find(two_)->parent_from_object.translation().x(), 0.02);
@@ -197,7 +197,7 @@ TEST_F(PropertyPanelTest, RefusesAbsurdValuesAtTheField) {
   type(field<QuantityField>("Radius, mm"), "25");
   EXPECT_DOUBLE_EQ(radius(), 0.025);
   EXPECT_EQ(complaint(), "");
-  EXPECT_EQ(session().history().actions().undo_name(), "Change radius of one");
+  EXPECT_EQ(session().history().undo_name(), "Change radius of one");
 }
 
 TEST_F(PropertyPanelTest, AnglesStayAsTheyWereTyped) {
@@ -233,7 +233,7 @@ TEST_F(PropertyPanelTest, AnEffectIsChangedAndSwitched) {
   const auto effect = [&] { return std::get<world::ForceEffect>(*world().find(one_)->fixture); };
   type(field<TextField>("Force"), "well:0,0,0,0.01,1.5");
   EXPECT_EQ(effect().text, "well:0,0,0,0.01,1.5");
-  EXPECT_EQ(session().history().actions().undo_name(), "Change force of one");
+  EXPECT_EQ(session().history().undo_name(), "Change force of one");
   type(field<TextField>("Force"), "well:0,0,0,0.01");
   EXPECT_TRUE(complaint().contains("number 5")) << complaint().toStdString();
   EXPECT_EQ(effect().text, "well:0,0,0,0.01,1.5");
@@ -276,7 +276,7 @@ TEST_F(PropertyPanelTest, ADragOfAnEffectsSliderIsFeltAllTheWayAndOneStepToUndo)
     EXPECT_EQ(text(), "well:0,0,0.01,0.01," + std::string(step == 200 ? "2" : step == 250 ? "2.5" : "3"));
   }
   force.setSliderDown(false);
-  EXPECT_EQ(session().history().actions().undo_name(), "Change force of one");
+  EXPECT_EQ(session().history().undo_name(), "Change force of one");
   ASSERT_TRUE(session().history().undo());
   QApplication::processEvents();
   EXPECT_EQ(text(), "well:0,0,0.01,0.01,1.5") << "all of the drag";
@@ -313,7 +313,7 @@ TEST_F(PropertyPanelTest, TouchKnowsTheDevicesBest) {
   EXPECT_EQ(stiffness.placeholderText(), "device's best");
   type(stiffness, "0.8 N/mm");
   EXPECT_DOUBLE_EQ(*material().touch.stiffness, 800.0);
-  EXPECT_EQ(session().history().actions().undo_name(), "Change stiffness of Beech");
+  EXPECT_EQ(session().history().undo_name(), "Change stiffness of Beech");
   type(stiffness, "nan");
   EXPECT_DOUBLE_EQ(*material().touch.stiffness, 800.0);
   stiffness.setFocus();

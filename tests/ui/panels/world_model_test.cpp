@@ -95,7 +95,7 @@ TEST_F(WorldModelTest, RenamingTouchesOneRow) {
   QSignalSpy changed(&model_, &QAbstractItemModel::dataChanged);
   ASSERT_TRUE(model_.setData(model_.index_of(two), "  second\nname ", Qt::EditRole));
   EXPECT_EQ(world().find(two)->name, "second name");
-  EXPECT_EQ(session().history().actions().undo_name(), "Rename two");
+  EXPECT_EQ(session().history().undo_name(), "Rename two");
   ASSERT_EQ(changed.count(), 1);
   EXPECT_EQ(changed.at(0).at(0).toModelIndex(), model_.index_of(two));
 }
@@ -124,7 +124,7 @@ TEST_F(WorldModelTest, DroppingKeepsThePlaceInTheWorld) {
   ASSERT_TRUE(model_.dropMimeData(data.get(), Qt::MoveAction, -1, -1, target));
   EXPECT_EQ(world().find(thing)->parent, stretched);
   EXPECT_TRUE(world::world_from_object(world(), thing).isApprox(own, 1e-12));
-  EXPECT_EQ(session().history().actions().undo_name(), "Move thing under stretched");
+  EXPECT_EQ(session().history().undo_name(), "Move thing under stretched");
 }
 
 TEST_F(WorldModelTest, NothingDropsUnderItself) {

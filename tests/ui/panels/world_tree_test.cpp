@@ -81,7 +81,7 @@ TEST_F(WorldTreeTest, DeletesGroupsAndDuplicatesAsOneActionEach) {
   create("below", two);
   session().select({one, two});
   ASSERT_TRUE(group_selected(session()));
-  EXPECT_EQ(session().history().actions().undo_name(), "Group 2 objects");
+  EXPECT_EQ(session().history().undo_name(), "Group 2 objects");
   const ObjectId group = session().selection().front();
   EXPECT_EQ(world().find(group)->children, (std::vector{one, two}));
   ASSERT_TRUE(duplicate_selected(session(), world::Duplicate::CopyObjectAndChildren));

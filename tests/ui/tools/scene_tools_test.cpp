@@ -125,10 +125,10 @@ TEST_F(SceneToolsTest, ADragMovesWithTheMouseAndIsOneAction) {
   drag(from, pixel(Vector3(-0.3, 0.2, 0.1)));
   EXPECT_TRUE(at(left_).isApprox(Vector3(-0.3, 0.2, 0.0), 1e-9));
   EXPECT_EQ(session().selection(), std::vector{left_});
-  EXPECT_EQ(session().history().actions().undo_name(), "Move left");
+  EXPECT_EQ(session().history().undo_name(), "Move left");
   ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(at(left_), Vector3(-0.3, 0.0, 0.0));
-  EXPECT_EQ(session().history().actions().undo_name(), "Edit");
+  EXPECT_EQ(session().history().undo_name(), "Edit");
   EXPECT_EQ(refused_, "");
 }
 
@@ -145,7 +145,7 @@ TEST_F(SceneToolsTest, TheSymbolOfAnEffectIsSelectedAndDraggedAndTheDragUndone) 
   EXPECT_TRUE(session().selection().empty());
   drag(rim, pixel(Vector3(0.0, 0.25, 0.0)));
   EXPECT_LT((at(well) - Vector3(0.0, 0.2, 0.0)).norm(), 1e-3) << at(well).transpose();
-  EXPECT_EQ(session().history().actions().undo_name(), "Move well");
+  EXPECT_EQ(session().history().undo_name(), "Move well");
   ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(at(well), Vector3(Vector3::Zero()));
   EXPECT_EQ(refused_, "");
@@ -156,7 +156,7 @@ TEST_F(SceneToolsTest, ADragOfOneMovesAllThatIsSelected) {
   drag(face(left_), pixel(Vector3(-0.4, 0.0, 0.1)));
   EXPECT_TRUE(at(left_).isApprox(Vector3(-0.4, 0.0, 0.0), 1e-9));
   EXPECT_TRUE(at(right_).isApprox(Vector3(0.2, 0.0, 0.0), 1e-9));
-  EXPECT_EQ(session().history().actions().undo_name(), "Move 2 objects");
+  EXPECT_EQ(session().history().undo_name(), "Move 2 objects");
 }
 
 TEST_F(SceneToolsTest, AHeldKeyKeepsADragToItsAxis) {
@@ -267,7 +267,7 @@ TEST_F(SceneToolsTest, AnotherWorldEndsADrag) {
   mouse(QEvent::MouseMove, pixel(Vector3(0.0, 0.2, 0.1)));
   tools_.tick();
   mouse(QEvent::MouseButtonRelease, pixel(Vector3(0.0, 0.2, 0.1)));
-  EXPECT_FALSE(session().history().actions().can_undo());
+  EXPECT_FALSE(session().history().can_undo());
   EXPECT_EQ(refused_, "");
 }
 
@@ -466,10 +466,10 @@ TEST_F(PartToolTest, AHoleIsDraggedByItsGhostAndFeltAtOnceAndTheDragUndone) {
   EXPECT_TRUE(goes_through(-0.05, 0.0));
   EXPECT_FALSE(goes_through(0.05, 0.0));
   EXPECT_EQ(at(left_), Vector3(Vector3::Zero())) << "the solid itself stays";
-  EXPECT_EQ(session().history().actions().undo_name(), "Move operand 1 of left");
+  EXPECT_EQ(session().history().undo_name(), "Move operand 1 of left");
   ASSERT_TRUE(session().history().undo());
   EXPECT_TRUE(goes_through(0.05, 0.0));
-  EXPECT_EQ(session().history().actions().undo_name(), "Edit");
+  EXPECT_EQ(session().history().undo_name(), "Edit");
   EXPECT_EQ(refused_, "");
 }
 
@@ -495,7 +495,7 @@ TEST_F(PartToolTest, EscapeTakesItBackAndAnAxisKeepsIt) {
   key(QEvent::KeyPress, Qt::Key_Escape);
   key(QEvent::KeyRelease, Qt::Key_X);
   EXPECT_TRUE(goes_through(0.05, 0.0));
-  EXPECT_EQ(session().history().actions().undo_name(), "Edit");
+  EXPECT_EQ(session().history().undo_name(), "Edit");
   mouse(QEvent::MouseButtonRelease, rim(0.0));
 }
 
@@ -535,7 +535,7 @@ TEST_F(PartToolTest, CtrlTurnsIt) {
   mouse(QEvent::MouseButtonRelease, to, Qt::LeftButton, Qt::ControlModifier);
   EXPECT_FALSE(goes_through(0.0, 0.12));
   EXPECT_TRUE(goes_through(0.09, 0.09));
-  EXPECT_EQ(session().history().actions().undo_name(), "Move operand 0 of left");
+  EXPECT_EQ(session().history().undo_name(), "Move operand 0 of left");
   EXPECT_EQ(refused_, "");
 }
 

@@ -97,7 +97,7 @@ TEST_F(ShapeToolTest, AVertexFollowsTheMouseAsOneAction) {
   drag({0.0, 0.0, 0.0}, {0.05, 0.08, 0.0});
   EXPECT_LT((vertices()[4] - Vector3(0.05, 0.08, 0.0)).norm(), 1e-9);
   for (std::size_t v = 0; v < rest.size(); ++v) EXPECT_TRUE(v == 4 || vertices()[v] == rest[v]) << v;
-  EXPECT_EQ(session().history().actions().undo_name(), "Drag vertex of sheet");
+  EXPECT_EQ(session().history().undo_name(), "Drag vertex of sheet");
   drag({0.05, 0.08, 0.0}, {0.0, 0.1, 0.0});
   EXPECT_LT((vertices()[4] - Vector3(0.0, 0.1, 0.0)).norm(), 1e-9) << "it is found where it is now";
   ASSERT_TRUE(session().history().undo());
@@ -119,7 +119,7 @@ TEST_F(ShapeToolTest, EdgesAndFacesAndWhatIsRoundThemFollow) {
   drag({0.12, 0.05, 0.0}, {0.12, 0.15, 0.0});
   for (const int v : {4, 5, 8}) EXPECT_NEAR(vertices()[v].y(), (v == 8 ? 0.2 : 0.0) + 0.1, 1e-9) << v;
   EXPECT_NEAR(vertices()[3].y(), 0.1 * (1.0 - 0.2 / 0.25), 1e-9);
-  EXPECT_EQ(session().history().actions().undo_name(), "Drag face of sheet");
+  EXPECT_EQ(session().history().undo_name(), "Drag face of sheet");
 }
 
 TEST_F(ShapeToolTest, KeepsToAnAxisAndEscapeBringsItBack) {
@@ -135,7 +135,7 @@ TEST_F(ShapeToolTest, KeepsToAnAxisAndEscapeBringsItBack) {
   EXPECT_TRUE(tools_.dragging());
   tools_.key_press(Qt::Key_Escape, {}, false);
   EXPECT_EQ(hash(world()), before);
-  EXPECT_EQ(session().history().actions().undo_name(), "Edit");
+  EXPECT_EQ(session().history().undo_name(), "Edit");
   EXPECT_FALSE(tools_.dragging());
   EXPECT_EQ(tools_.tool(), Tool::Shape) << "the next one leaves the tool";
 }
@@ -154,7 +154,7 @@ TEST_F(ShapeToolTest, PointsOfTheLatticeDeformTheSelection) {
   drag(rest[middle], rest[middle] + Vector3(0.1, 0.0, 0.0));
   EXPECT_NEAR(vertices()[4].x(), 0.1 * 0.25 * 0.5, 1e-9) << "B(1,2)^2 B(1,1) in the middle";
   EXPECT_EQ(vertices()[0], Vector3(-0.2, -0.2, 0.0));
-  EXPECT_EQ(session().history().actions().undo_name(), "Deform sheet");
+  EXPECT_EQ(session().history().undo_name(), "Deform sheet");
   EXPECT_NEAR(session().hands().shaping()->cage()->lattice().points[middle].x(), 0.1, 1e-9);
   ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(hash(world()), before);
@@ -203,7 +203,7 @@ TEST_F(ShapeToolTest, LeavingTheToolGivesObjectsBack) {
   tools_.choose(Tool::Select);
   EXPECT_FALSE(session().hands().shaping());
   EXPECT_NEAR(vertices()[4].y(), 0.05, 1e-9) << "it stays where it is";
-  EXPECT_EQ(session().history().actions().undo_name(), "Drag vertex of sheet");
+  EXPECT_EQ(session().history().undo_name(), "Drag vertex of sheet");
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST_F(MainWindowTest, DeletesAndDuplicatesAsOneAction) {
   action("edit.duplicate")->trigger();
   EXPECT_EQ(world().objects().size(), 4U);
   EXPECT_EQ(session().selection().size(), 2U);
-  EXPECT_EQ(session().history().actions().undo_name(), "Duplicate 2 objects");
+  EXPECT_EQ(session().history().undo_name(), "Duplicate 2 objects");
   ASSERT_TRUE(session().history().undo());
   EXPECT_EQ(world().objects().size(), 2U);
   session().select({table, lamp});
@@ -96,7 +96,7 @@ TEST_F(MainWindowTest, AnOperationIsAskedForAndPerformed) {
   window_->findChild<QPushButton*>("operation.apply")->click();
   ASSERT_EQ(world().objects().size(), 1U);
   EXPECT_EQ(world().objects().begin()->second.name, "seat");
-  EXPECT_EQ(session().history().actions().undo_name(), "Create");
+  EXPECT_EQ(session().history().undo_name(), "Create");
   window_->findChild<QPushButton*>("operation.close")->click();
   EXPECT_FALSE(dock->isVisible());
 }
@@ -147,7 +147,7 @@ TEST_F(MainWindowTest, LaysAPictureOnTheObjectThatItIsDroppedOn) {
   const QString wood = QString::fromStdString((places::project_folder() / "examples" / "wood.png").string());
   drop_on_scene(wood);
   ASSERT_TRUE(until([&] { return !world().textures().empty(); }));
-  EXPECT_EQ(session().history().actions().undo_name(), "Put Picture on cube");
+  EXPECT_EQ(session().history().undo_name(), "Put Picture on cube");
   const world::PhysicalObject& object = world().objects().begin()->second;
   EXPECT_TRUE(world().find(world().find(object.material)->texture));
   ASSERT_TRUE(session().history().undo());
@@ -253,10 +253,10 @@ TEST_F(MainWindowTest, CommittedFieldsLeaveUndoToTheDesign) {
   redo(x);
   EXPECT_EQ(place(), 0.025);
   ASSERT_TRUE(until([&] { return x.text() == "25" && action("edit.undo")->isEnabled(); }));
-  const std::string before = session().history().actions().undo_name();
+  const std::string before = session().history().undo_name();
   x.clearFocus();
   EXPECT_EQ(place(), 0.025);
-  EXPECT_EQ(session().history().actions().undo_name(), before) << "leaving the field does nothing";
+  EXPECT_EQ(session().history().undo_name(), before) << "leaving the field does nothing";
   undo(x);
   EXPECT_EQ(place(), 0.0);
 
@@ -267,7 +267,7 @@ TEST_F(MainWindowTest, CommittedFieldsLeaveUndoToTheDesign) {
   EXPECT_EQ(y.text(), "0");
   EXPECT_TRUE(world().find(leg)) << "not the object, which the design would have taken back";
   y.clearFocus();
-  EXPECT_EQ(session().history().actions().undo_name(), "Add leg");
+  EXPECT_EQ(session().history().undo_name(), "Add leg");
 
   QLineEdit& name = name_field();
   QTest::keyClicks(&name, "table leg");

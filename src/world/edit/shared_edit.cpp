@@ -1,14 +1,9 @@
-#include "session/shared_edit.h"
+#include "world/edit/shared_edit.h"
 
 #include <algorithm>
 
-namespace icome::session {
+namespace icome::world {
 namespace {
-
-using world::Edit;
-using world::EditGroup;
-using world::MoveVertices;
-using world::World;
 
 /// Does the edit make new shapes of those that are there?
 bool makes_shapes(const Edit& edit) {
@@ -17,14 +12,14 @@ bool makes_shapes(const Edit& edit) {
   return std::holds_alternative<MoveVertices>(edit.what);
 }
 
-base::Result<SharedEdit> perform_group(World& world, const EditGroup& group) {
+base::Result<SharedEdit> perform_group(World& world, const EditGroup& group, const Fit& fit) {
   EditGroup inverse, for_replicas;
   for (const Edit& edit : group.edits) {
-    auto done = perform_shared(world, edit);
+    auto done = perform_shared(world, edit, fit);
     if (!done) {
-      // All or none, as in world::apply.
+      // All or none, as in apply().
       for (auto back = inverse.edits.rbegin(); back != inverse.edits.rend(); ++back)
-        (void)world::apply(world, *back);
+        (void)apply(world, *back);
       return tl::unexpected(done.error());
     }
     inverse.edits.push_back(std::move(done->inverse));
@@ -36,15 +31,17 @@ base::Result<SharedEdit> perform_group(World& world, const EditGroup& group) {
 
 }  // namespace
 
-base::Result<SharedEdit> perform_shared(World& world, const Edit& edit) {
+base::Result<SharedEdit> perform_shared(World& world, const Edit& edit, const Fit& fit) {
   const bool makes = makes_shapes(edit);
-  if (const auto* group = std::get_if<EditGroup>(&edit.what); group && makes)
-    return perform_group(world, *group);
-  auto inverse = world::apply(world, edit);
+  const auto* const group = std::get_if<EditGroup>(&edit.what);
+  if (group && (makes || fit)) return perform_group(world, *group, fit);
+  const std::optional<Edit> fitted = fit ? fit(world, edit) : std::nullopt;
+  const Edit& performed = fitted ? *fitted : edit;
+  auto inverse = apply(world, performed);
   if (!inverse) return tl::unexpected(inverse.error());
-  if (!makes) return SharedEdit{std::move(*inverse), edit};
-  const world::GeometryId id = std::get<MoveVertices>(edit.what).id;
-  return SharedEdit{std::move(*inverse), world::ReplaceGeometry{id, world.find(id)->shape}};
+  if (!makes) return SharedEdit{std::move(*inverse), performed};
+  const GeometryId id = std::get<MoveVertices>(performed.what).id;
+  return SharedEdit{std::move(*inverse), ReplaceGeometry{id, world.find(id)->shape}};
 }
 
-}  // namespace icome::session
+}  // namespace icome::world

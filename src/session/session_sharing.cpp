@@ -1,0 +1,456 @@
+#include "session/session_sharing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/clock.h"
+#include "collab/client/joining.h"
+#include "collab/order/items.h"
+#include "interaction/object_move.h"
+#include "session/session_parts.h"
+#include "world/edit/shared_edit.h"
+
+namespace icome::session {
+
+using collab::ConversationState;
+using world::ObjectId;
+
+namespace {
+
+constexpr std::chrono::milliseconds kJoinPatience{3'000};  // with a server that is not to be reached
+constexpr std::chrono::milliseconds kMostLeaving{2'000};
+constexpr std::int64_t kPresentEvery = 33'000'000;  // ns
+
+/// Joins a design, and hands its connection over.
+base::Result<files::LoadedDesign> join(const collab::DesignAddress& address, const std::string& name,
+                                       JoinedDesign& joined, const files::DesignReadOptions& options) {
+  auto identity = collab::new_identity(name);
+  if (!identity) return tl::unexpected(identity.error());
+  auto connection = collab::Connection::create(address, std::move(*identity));
+  if (!connection) return tl::unexpected(connection.error());
+  const collab::Conversation& talk = (*connection)->talk();
+  const auto is_live = [&] { return talk.state() == ConversationState::Live; };
+  const auto stops = [&] { return options.progress && !options.progress(talk.progress()); };
+  const auto done = (*connection)->work_until(is_live, stops, kJoinPatience);
+  if (!done) return tl::unexpected(done.error());
+  if (!*done) return base::fail("interrupted");
+  files::LoadedDesign design;
+  design.world = talk.replica().world();
+  design.format = fmt::format("on {}:{}", address.host, address.port);
+  joined.connection = std::move(*connection);
+  return design;
+}
+
+/// The edit alone where there is but one.
+world::Edit simplified(world::EditGroup group) {
+  if (group.edits.size() == 1) return std::move(group.edits.front());
+  return world::Edit(std::move(group));
+}
+
+/// Tells of what happened in a shared design.
+class SharedNews {
+ public:
+  explicit SharedNews(SessionParts& parts) : parts_(parts), shared_(*parts.shared), talk_(shared_.talk()) {}
+
+  void operator()(const collab::SeenEdit&) {}
+  void operator()(const collab::SeenDurable&) {}
+  void operator()(const collab::SeenState& it) {
+    using Kind = SessionEvent::Kind;
+    const std::string where = collab::shown_address(talk_.address());
+    parts_.holds_are_new = true;
+    if (it.state == ConversationState::Away) {
+      parts_.tell(Kind::ServerLost,
+                  fmt::format("The connection to {} is lost: {} You can go on: what you do is sent when the "
+                              "server is back.",
+                              where, it.why));
+    } else if (it.state == ConversationState::Live) {
+      parts_.tell(Kind::ServerBack, fmt::format("The connection to {} is back.", where));
+    } else if (!it.why.empty() && it.state == ConversationState::Joining) {
+      parts_.tell(Kind::Notice, it.why);
+    }
+  }
+  void operator()(const collab::Dropped& it) {
+    parts_.revisions.performed();  // drags end
+    shared_.goes_on = false;
+    parts_.tell(SessionEvent::Kind::Dropped, fmt::format("\"{}\" did not come to be: {}", it.name, it.why));
+  }
+  void operator()(const collab::Selected& it) {
+    parts_.holds_are_new = true;
+    if (it.waits)
+      parts_.tell(SessionEvent::Kind::Notice,
+                  it.why + " You get it when it is given back, or nobody else waits before you.");
+    else if (it.granted && shared_.take_waited(it.item))
+      parts_.tell(SessionEvent::Kind::Notice,
+                  fmt::format("You have {} now.", collab::called(talk_.replica().world(), it.item)));
+  }
+  void operator()(const collab::FloorChanged& it) {
+    parts_.holds_are_new = true;
+    if (it.taken_by == 0 || !shared_.lose(it.item)) return;
+    parts_.tell(SessionEvent::Kind::Notice,
+                fmt::format("{} took {} away from you.", talk_.name_of(it.taken_by),
+                            collab::called(talk_.replica().world(), it.item)));
+  }
+  void operator()(const collab::Person& it) {
+    parts_.holds_are_new = true;
+    if (it.author == talk_.replica().author()) return;
+    shared_.add_line({0, it.author, it.name, it.here ? "is here" : "has left", false});
+  }
+  void operator()(const collab::Said& it) {
+    shared_.add_line({0, it.author, talk_.name_of(it.author), it.text, true});
+  }
+
+ private:
+  SessionParts& parts_;
+  SharedDesign& shared_;
+  collab::Conversation& talk_;
+};
+
+}  // namespace
+
+// ---- joining and leaving
+
+bool SessionSharing::is_address(const std::string& text) { return collab::is_design_address(text); }
+
+base::Result<std::string> SessionSharing::shown(const std::string& text) {
+  const auto address = collab::design_address(text);
+  if (!address) return tl::unexpected(address.error());
+  return collab::shown_address(*address);
+}
+
+const std::vector<std::string>& SessionSharing::recent() const { return parts_.addresses.links(); }
+
+void SessionSharing::forget(const std::string& address) { parts_.addresses.remove(address); }
+
+void SessionSharing::open(const std::string& text, const std::string& name) {
+  const auto address = collab::address_to_join(text);
+  if (!address) {
+    parts_.tell(SessionEvent::Kind::OpenFailed, address.error().message);
+    return;
+  }
+  parts_.recovering.reset();
+  parts_.joining = std::make_shared<JoinedDesign>();
+  parts_.loader.start(collab::shown_address(*address),
+                      [address = *address, name, joined = parts_.joining](
+                          const files::DesignReadOptions& options) { return join(address, name, *joined, options); });
+}
+
+void SessionParts::begin_sharing(std::unique_ptr<collab::Connection> connection) {
+  shared = std::make_unique<SharedDesign>(std::move(connection));
+  const collab::Replica& replica = shared->talk().replica();
+  ids = world::IdSource(replica.author(), world.next_number(replica.author()));
+  Edited edited;
+  edited.whole = std::make_shared<const world::World>(world);
+  edited.saved = std::make_shared<const SavedWork>(SavedWork{.number = queue.posted() + 1, .by_server = true});
+  opened_number = queue.post(std::move(edited));
+  for (const collab::Seen& it : shared->talk().take_seen())
+    if (const auto* const person = std::get_if<collab::Person>(&it); person && person->here)
+      SharedNews(*this)(*person);
+  addresses.add(collab::link_text(shared->talk().address()));
+  holds_are_new = true;
+}
+
+/// Says goodbye on a thread of its own.
+void SessionParts::leave_shared() {
+  if (!shared) return;
+  const std::unique_ptr<SharedDesign> left = std::move(shared);
+  left->talk().replica().on_change(nullptr);
+  followed.reset();
+  holds_are_new = true;
+  std::shared_ptr<collab::Connection> connection = left->release();
+  leaving.push_back(std::make_unique<BackgroundTask<bool>>([connection]() -> base::Result<bool> {
+    const auto until = base::steady_nanoseconds() + std::chrono::nanoseconds(kMostLeaving).count();
+    connection->talk().leave();
+    return connection->work_until(
+        [&] { return connection->talk().state() != ConversationState::Live; },
+        [&] { return base::steady_nanoseconds() > until; }, kMostLeaving);
+  }));
+}
+
+void SessionParts::close_left() {
+  std::erase_if(leaving, [](const auto& it) { return it->is_done(); });
+}
+
+// ---- what others and oneself do
+
+/// Takes in what came from the server, and sends what is to be said.
+void SessionParts::take_shared() {
+  close_left();
+  if (!shared) return;
+  shared->work();
+  mirror(false);
+  SharedNews news(*this);
+  for (const collab::Seen& it : shared->talk().take_seen()) std::visit(news, it);
+  collab::Conversation& talk = shared->talk();
+  const std::uint32_t author = talk.replica().author();
+  if (author != ids.author()) ids = world::IdSource(author, world.next_number(author));
+  if (talk.state() == ConversationState::Ended) {
+    tell(SessionEvent::Kind::SharingEnds,
+         fmt::format("{}: {} The design stays open here: save it to keep it.",
+                     collab::shown_address(talk.address()), talk.why_ended()));
+    open_world(world::World(world), {});
+    saved_revision = 0;  // it is in no file
+    return;
+  }
+  present();
+}
+
+/// Leads the session's world along with the replica's, and keeps what is tried out on top of it.
+void SessionParts::mirror(bool own) {
+  SharedDesign::Way way = shared->take_way();
+  if (way.is_another) return take_another_world();
+  if (way.edits.empty()) return;
+  world::EditGroup group;
+  const bool trying = history.trying();
+  if (trying) {
+    if (!take_back()) return take_another_world();
+    group.edits.push_back(*std::exchange(performed, std::nullopt)->for_replicas);
+  }
+  for (world::Edit& edit : way.edits) {
+    if (!world::apply(world, edit)) return take_another_world();
+    group.edits.push_back(std::move(edit));
+  }
+  if (trying) {
+    const auto tried = history.try_out(sink(), shared->tried->edit, shared->tried->name);
+    if (tried) {
+      revisions.tried();
+      group.edits.push_back(*std::exchange(performed, std::nullopt)->for_replicas);
+    } else {
+      tell(SessionEvent::Kind::Notice, fmt::format("\"{}\" was given up, as the design has changed: {}",
+                                                   shared->tried->name, tried.error().message));
+      shared->tried.reset();
+    }
+  }
+  post_mirrored(std::move(group), own);
+}
+
+void SessionParts::post_mirrored(world::EditGroup group, bool own) {
+  Edited edited;
+  edited.edit = edited.for_replicas = std::make_shared<const world::Edit>(simplified(std::move(group)));
+  const std::shared_ptr<const world::Edit> edit = edited.edit;
+  queue.post(std::move(edited));
+  const world::Changes changes = world::changes_of(*edit);
+  follows_others = !own;
+  tell_change(&changes);
+  follows_others = false;
+}
+
+/// The design came anew from the server.
+void SessionParts::take_another_world() {
+  (void)shared->take_way();
+  world = shared->talk().replica().world();
+  history = {};
+  shared->tried.reset();
+  shared->goes_on = false;
+  revisions.performed();
+  Edited edited;
+  edited.whole = std::make_shared<const world::World>(world);
+  edited.saved = std::make_shared<const SavedWork>(SavedWork{.number = queue.posted() + 1, .by_server = true});
+  queue.post(std::move(edited));
+  marked_part.reset();
+  outline_is_new = look_is_new = true;
+  if (const world::SceneId scene = std::exchange(shown_scene, {}); world.find(scene)) show(scene);
+  follows_others = true;
+  tell_change(nullptr);
+  follows_others = false;
+}
+
+base::Result<void> SessionParts::perform_for_all(const world::Edit& edit, const std::string& name,
+                                                 bool goes_on) {
+  if (!queue.has_room())
+    return base::fail("The program is too far behind with your edits: wait a moment, then do it again.");
+  if (const auto kept = submit_tried(); !kept) return kept;
+  const auto number = shared->talk().perform(edit, name, goes_on);
+  if (!number) return tl::unexpected(number.error());
+  shared->goes_on = true;
+  revisions.performed();
+  mirror(true);
+  return {};
+}
+
+/// Undoes or redoes the last own action.
+base::Result<void> SessionParts::turn_for_all(bool back) {
+  if (const auto kept = submit_tried(); !kept) return kept;
+  const auto number = back ? shared->talk().undo() : shared->talk().redo();
+  if (!number) return tl::unexpected(number.error());
+  shared->goes_on = false;
+  revisions.performed();
+  mirror(true);
+  return {};
+}
+
+/// Makes what is tried out an action for all.
+base::Result<void> SessionParts::submit_tried() {
+  if (!history.trying()) return {};
+  const SharedDesign::Tried tried = *std::exchange(shared->tried, std::nullopt);
+  if (const auto taken = take_back(); !taken) return taken;
+  world::EditGroup group{{*std::exchange(performed, std::nullopt)->for_replicas}};
+  history = {};
+  const auto number = shared->talk().perform(tried.edit, tried.name);
+  for (world::Edit& edit : shared->take_way().edits)
+    if (world::apply(world, edit)) group.edits.push_back(std::move(edit));
+  shared->goes_on = number.has_value();
+  post_mirrored(std::move(group), true);
+  if (!number) return tl::unexpected(number.error());
+  return {};
+}
+
+// ---- the floor
+
+void SessionParts::hold_selection() {
+  if (shared) shared->hold(interaction::topmost(world, selection));
+}
+
+std::optional<SessionSharing::Holder> SessionSharing::holder_of(ObjectId object) const {
+  if (!parts_.shared) return std::nullopt;
+  const collab::Conversation& talk = parts_.shared->talk();
+  const auto hold = collab::hold_over(talk.holds(), parts_.world, talk.replica().author(), object);
+  if (!hold) return std::nullopt;
+  const auto person = talk.people().find(hold->holder);
+  const collab::Person known = person == talk.people().end() ? collab::Person{hold->holder} : person->second;
+  return Holder{hold->holder, talk.name_of(hold->holder), collab::shown_colour(known),
+                ObjectId{hold->item.id}};
+}
+
+void SessionSharing::wait_for(ObjectId object) {
+  if (parts_.shared) parts_.shared->wait_for(object);
+}
+
+base::Result<void> SessionSharing::take_away(ObjectId object) {
+  if (!parts_.shared) return {};
+  if (parts_.shared->talk().role() < collab::Role::Own)
+    return base::fail("Only who has a link with the role own may take things away.");
+  parts_.shared->talk().take_away(collab::item_of(object));
+  return {};
+}
+
+// ---- people
+
+std::optional<SessionSharing::State> SessionSharing::state() const {
+  if (!parts_.shared) return std::nullopt;
+  const collab::Conversation& talk = parts_.shared->talk();
+  return State{talk.state(),
+               talk.role(),
+               collab::shown_address(talk.address()),
+               talk.address().design,
+               talk.delay(),
+               talk.replica().unacknowledged(),
+               parts_.shared->last_why()};
+}
+
+std::vector<SessionSharing::Colleague> SessionSharing::people() const {
+  std::vector<Colleague> result;
+  if (!parts_.shared) return result;
+  const collab::Conversation& talk = parts_.shared->talk();
+  for (const auto& [author, person] : talk.people()) {
+    if (!person.here) continue;
+    Colleague it{author, person.name, collab::shown_colour(person), person.role,
+                 author == talk.replica().author(), {}, false};
+    for (const auto& [item, hold] : talk.holds())
+      if (hold.holder == author && item.kind == collab::ItemKind::Object) it.holds.push_back(ObjectId{item.id});
+    const auto sighting = talk.sightings().find(author);
+    it.has_view = sighting != talk.sightings().end() && sighting->second.where.view.has_value();
+    result.push_back(std::move(it));
+  }
+  std::ranges::stable_partition(result, &Colleague::is_me);
+  return result;
+}
+
+void SessionSharing::say(const std::string& text) {
+  if (parts_.shared && !text.empty()) parts_.shared->talk().say(text);
+}
+
+const std::deque<SharedLine>& SessionSharing::lines() const {
+  static const std::deque<SharedLine> kNone;
+  return parts_.shared ? parts_.shared->lines() : kNone;
+}
+
+const world::World& SessionSharing::design() const {
+  return parts_.shared ? parts_.shared->talk().replica().world() : parts_.world;
+}
+
+void SessionSharing::follow(std::optional<std::uint32_t> author) { parts_.followed = author; }
+
+std::optional<std::uint32_t> SessionSharing::followed() const { return parts_.followed; }
+
+namespace {
+
+collab::SharedPose shared_pose(const base::Pose& pose) {
+  return {pose.translation(), base::Quaternion(pose.linear())};
+}
+
+bool same(const std::optional<collab::SharedPose>& a, const std::optional<collab::SharedPose>& b) {
+  if (a.has_value() != b.has_value()) return false;
+  return !a || (a->position == b->position && a->turn.coeffs() == b->turn.coeffs());
+}
+
+}  // namespace
+
+/// Tells the others where one's pointer is and where one looks, some 30 times a second while that changes.
+void SessionParts::present() {
+  const std::int64_t now = base::steady_nanoseconds();
+  if (shared->talk().state() != ConversationState::Live || now - presented_at < kPresentEvery) return;
+  collab::Whereabouts where;
+  const bool is_aside = is_mouse(0) && !hand_is_aimed;
+  if (hands.pointers() > 0 && !is_aside) {
+    const PointerView& hand = hands.view(0);
+    if (hand.time != 0 && hand.status != devices::DeviceStatus::Lost && hand.tip.allFinite())
+      where.pointer = collab::SharedPose{hand.scp, base::Quaternion::Identity()};
+  }
+  where.view = shared_pose(user.view().world_from_eye);
+  if (user.drawn_view().world_from_eye.matrix() != user.view().world_from_eye.matrix())
+    where.head = shared_pose(user.drawn_view().world_from_eye);
+  if (same(where.pointer, presented.pointer) && same(where.view, presented.view) &&
+      same(where.head, presented.head))
+    return;
+  presented_at = now;
+  presented = where;
+  shared->talk().present(where);
+}
+
+/// Looks from where the followed person looks.
+void SessionParts::follow_person() {
+  if (!followed || !shared) return;
+  const auto found = places.now().find(*followed);
+  if (found == places.now().end() || !found->second.view) return;
+  interaction::View view = user.view();
+  view.world_from_eye.linear() = found->second.view->turn.toRotationMatrix();
+  view.world_from_eye.translation() = found->second.view->position;
+  if (view.world_from_eye.matrix() != user.view().world_from_eye.matrix()) user.set_view(view);
+}
+
+/// Renews what is seen of others: their pointers, eyes and names, and the lines around what they hold.
+void SessionParts::renew_people() {
+  if (!shared) {
+    if (people.empty() && held_outlines.empty()) return;
+    people.clear();
+    held_outlines.clear();
+    look_is_new = true;
+    return;
+  }
+  const collab::Conversation& talk = shared->talk();
+  if (std::exchange(holds_are_new, false) || outline_is_new) {
+    held_outlines.clear();
+    for (const auto& [item, hold] : talk.holds()) {
+      if (hold.holder == talk.replica().author() || item.kind != collab::ItemKind::Object) continue;
+      const auto person = talk.people().find(hold.holder);
+      const collab::Person known =
+          person == talk.people().end() ? collab::Person{hold.holder} : person->second;
+      held_outlines.push_back({world::subtree(world, ObjectId{item.id}), colour_of(collab::shown_colour(known))});
+    }
+    look_is_new = true;
+  }
+  if (!places.update(talk, session_seconds()) && people.size() == places.now().size()) return;
+  people.clear();
+  for (const auto& [author, where] : places.now()) {
+    const auto person = talk.people().find(author);
+    if (person == talk.people().end() || !person->second.here) continue;
+    const auto sign = look.name_signs.find(author);
+    people.push_back({colour_of(collab::shown_colour(person->second)),
+                      sign == look.name_signs.end() ? nullptr : sign->second, where, followed != author});
+  }
+  look_is_new = true;
+}
+
+}  // namespace icome::session

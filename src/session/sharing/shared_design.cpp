@@ -1,0 +1,57 @@
+#include "session/sharing/shared_design.h"
+
+#include <utility>
+
+namespace icome::session {
+
+namespace {
+
+constexpr std::size_t kMostLines = 500;
+/// A server lets nobody have very many things; those behind them may be changed all the same while nobody else
+/// has them.
+constexpr std::size_t kMostHeld = 200;
+
+}  // namespace
+
+SharedDesign::SharedDesign(std::unique_ptr<collab::Connection> connection)
+    : connection_(std::move(connection)) {
+  talk().replica().on_change([this](const world::Edit* edit) {
+    if (edit == nullptr) {
+      way_ = {true, {}};
+    } else if (!way_.is_another) {
+      way_.edits.push_back(*edit);
+    }
+  });
+}
+
+SharedDesign::Way SharedDesign::take_way() { return std::exchange(way_, {}); }
+
+void SharedDesign::hold(std::span<const world::ObjectId> objects) {
+  if (talk().role() < collab::Role::Edit) return;
+  std::set<world::ObjectId> wanted;
+  for (const world::ObjectId id : objects)
+    if (wanted.size() < kMostHeld) wanted.insert(id);
+  // First what is given back: an object and one below it may be in each other's way.
+  for (const world::ObjectId id : held_)
+    if (!wanted.contains(id)) {
+      waited_.erase(collab::item_of(id));
+      talk().deselect(collab::item_of(id));
+    }
+  for (const world::ObjectId id : wanted)
+    if (!held_.contains(id)) talk().select(collab::item_of(id));
+  held_ = std::move(wanted);
+}
+
+void SharedDesign::wait_for(world::ObjectId object) {
+  held_.insert(object);
+  waited_.insert(collab::item_of(object));
+  talk().select(collab::item_of(object), true);
+}
+
+void SharedDesign::add_line(SharedLine line) {
+  line.number = ++lines_so_far_;
+  lines_.push_back(std::move(line));
+  if (lines_.size() > kMostLines) lines_.pop_front();
+}
+
+}  // namespace icome::session

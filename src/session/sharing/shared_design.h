@@ -1,0 +1,69 @@
+#pragma once
+#include <deque>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "collab/client/connection.h"
+#include "session/sharing/shared_line.h"
+
+namespace icome::session {
+
+/// A design on a server as a session works on it: its connection, what the session's world has still to go
+/// through, and what is asked of the floor for the selection. Main's.
+class SharedDesign {
+ public:
+  explicit SharedDesign(std::unique_ptr<collab::Connection> connection);
+
+  collab::Conversation& talk() { return connection_->talk(); }
+  const collab::Conversation& talk() const { return connection_->talk(); }
+  void work() { connection_->work(); }
+
+  /// The way of the design's world since the last call.
+  struct Way {
+    bool is_another = false;  // it became another world
+    std::vector<world::Edit> edits = {};
+  };
+  Way take_way();
+
+  /// An edit that the session's world has gone through on trial, and nobody else's.
+  struct Tried {
+    world::Edit edit;
+    std::string name;
+  };
+  std::optional<Tried> tried = {};
+  /// The last action may be gone on with.
+  bool goes_on = false;
+
+  /// Asks for these objects and gives back the others that were asked for.
+  void hold(std::span<const world::ObjectId> objects);
+  /// Asks for one, even if others are before.
+  void wait_for(world::ObjectId object);
+  /// Was this waited for, and not heard of yet?
+  bool take_waited(collab::Item item) { return waited_.erase(item) > 0; }
+  /// Another took it away: was it asked for?
+  bool lose(collab::Item item) { return held_.erase(world::ObjectId{item.id}) > 0; }
+
+  /// The reason why there was no connection, the last time.
+  const std::string& last_why() const { return connection_->last_why(); }
+
+  /// What people said and did, the newest last; old lines go.
+  const std::deque<SharedLine>& lines() const { return lines_; }
+  void add_line(SharedLine line);
+
+  /// The connection, to be left in good order.
+  std::unique_ptr<collab::Connection> release() { return std::move(connection_); }
+
+ private:
+  std::unique_ptr<collab::Connection> connection_;
+  Way way_;
+  std::set<world::ObjectId> held_;  // or asked for
+  std::set<collab::Item> waited_;
+  std::deque<SharedLine> lines_;
+  std::uint64_t lines_so_far_ = 0;
+};
+
+}  // namespace icome::session

@@ -1,0 +1,70 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "collab/protocol/address.h"
+#include "collab/server/design_server.h"
+#include "collab/server/token.h"
+#include "collab/storage/sqlite_op_log.h"
+#include "collab/storage/store_folder.h"
+
+namespace icome::collab {
+
+/// A server with one design, "table", on a thread, in a folder of the running test's own.
+class ServedDesign {
+ public:
+  ServedDesign() {
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              (std::string("icome_server_") + test->test_suite_name() + "_" + test->name());
+    std::filesystem::remove_all(folder_);
+    start();
+  }
+  ~ServedDesign() {
+    stop();
+    std::filesystem::remove_all(folder_);
+  }
+
+  /// At the same endpoint as before.
+  void start() {
+    ServeSettings settings;
+    settings.store = folder_;
+    settings.listen = endpoint_;
+    auto server = DesignServer::create(settings);
+    ASSERT_TRUE(server) << server.error().message;
+    server_ = std::move(*server);
+    endpoint_ = server_->endpoint();
+    ends_ = false;
+    thread_ = std::thread([this] { EXPECT_TRUE(server_->run([this] { return ends_.load(); })); });
+  }
+  void stop() {
+    ends_ = true;
+    if (thread_.joinable()) thread_.join();
+    server_.reset();
+  }
+
+  DesignAddress address(Role role) const {
+    const StoreFolder folder = StoreFolder::open(folder_).value();
+    SqliteOpLog log = SqliteOpLog::open(folder.designs()).value();
+    if (!log.find("table").value()) (void)log.create("table");
+    const TokenSigner signer = TokenSigner::open(folder.token_key()).value();
+    const auto token =
+        signer.sign({make_invitation_id().value(), "table", role, wall_milliseconds() + 600'000});
+    return {endpoint_.host, endpoint_.port, "table", token.value(), server_->fingerprint()};
+  }
+  std::string link(Role role) const { return link_text(address(role)); }
+
+ private:
+  std::filesystem::path folder_;
+  Endpoint endpoint_ = {};
+  std::unique_ptr<DesignServer> server_;
+  std::atomic<bool> ends_ = false;
+  std::thread thread_;
+};
+
+}  // namespace icome::collab

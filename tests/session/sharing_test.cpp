@@ -1,0 +1,209 @@
+// Sessions that work on one design, by a server on the loopback.
+#include "session/session_sharing.h"
+
+#include <algorithm>
+
+#include "collab/server/served_design.h"
+#include "session/sessions.h"
+
+namespace icome::session {
+namespace {
+
+using collab::ConversationState;
+using collab::Role;
+using world::ObjectId;
+
+bool has(const std::vector<SessionEvent>& events, SessionEvent::Kind kind) {
+  return std::ranges::any_of(events, [kind](const SessionEvent& it) { return it.kind == kind; });
+}
+
+std::string text_of(const std::vector<SessionEvent>& events, SessionEvent::Kind kind) {
+  const auto found = std::ranges::find(events, kind, &SessionEvent::kind);
+  return found == events.end() ? "" : found->text;
+}
+
+double x_of(const Session& session, ObjectId id) {
+  return session.world().find(id)->parent_from_object.translation().x();
+}
+
+/// Two people at one design.
+class Sharing : public testing::Test {
+ protected:
+  Sharing() : ann_(join("Ann", Role::Edit)), bob_(join("Bob", Role::Own)) {}
+
+  std::unique_ptr<Session> join(const std::string& name, Role role) {
+    setenv("ICOME_NAME", name.c_str(), 1);
+    auto session = start();
+    session->sharing().open(served_.link(role));
+    const auto events = run_until(*session, [&] { return session->sharing().state().has_value(); });
+    EXPECT_TRUE(has(events, SessionEvent::Kind::Opened) || has(session->update(), SessionEvent::Kind::Opened));
+    unsetenv("ICOME_NAME");
+    return session;
+  }
+  /// Both go on until that is so; what they are told is kept.
+  void until(const std::function<bool()>& is_so) {
+    while (!is_so()) {
+      for (SessionEvent& it : ann_->update()) told_ann_.push_back(std::move(it));
+      for (SessionEvent& it : bob_->update()) told_bob_.push_back(std::move(it));
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  void until_same() {
+    until([&] {
+      return ann_->sharing().state()->unsent == 0 && bob_->sharing().state()->unsent == 0 &&
+             hash(ann_->world()) == hash(bob_->world());
+    });
+  }
+
+  collab::ServedDesign served_;
+  std::unique_ptr<Session> ann_, bob_;
+  std::vector<SessionEvent> told_ann_, told_bob_;
+};
+
+TEST_F(Sharing, ShowsToOthersWhatOneDoesAndUndoesOnesOwnOnly) {
+  const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg");
+  until_same();
+  const ObjectId lamp = add_box(*bob_, world::at(1, 0, 0), "lamp");
+  until_same();
+  EXPECT_EQ(ann_->history().undo_name(), "Add leg");
+  ASSERT_TRUE(ann_->history().undo());
+  until_same();
+  EXPECT_FALSE(bob_->world().find(leg));
+  EXPECT_TRUE(bob_->world().find(lamp));
+  EXPECT_FALSE(ann_->history().can_undo()) << "Bob's action is Bob's to take back";
+  ASSERT_TRUE(ann_->history().redo());
+  until_same();
+  EXPECT_TRUE(bob_->world().find(leg));
+  EXPECT_FALSE(ann_->files().modified()) << "the server has it";
+}
+
+TEST_F(Sharing, HoldsWhatIsSelected) {
+  const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg");
+  until_same();
+  ann_->select({leg});
+  until([&] { return bob_->sharing().holder_of(leg).has_value(); });
+  EXPECT_EQ(bob_->sharing().holder_of(leg)->name, "Ann");
+  const auto moved = bob_->history().perform(world::PlaceObject{leg, world::at(3, 0, 0)}, "Move leg");
+  ASSERT_FALSE(moved);
+  EXPECT_EQ(moved.error().message, "Ann holds \"leg\".");
+  EXPECT_EQ(bob_->sharing().people()[1].holds, std::vector<ObjectId>{leg});
+  bob_->sharing().wait_for(leg);
+  until([&] { return has(told_bob_, SessionEvent::Kind::Notice); });
+  told_bob_.clear();
+  ann_->select({});
+  until([&] { return has(told_bob_, SessionEvent::Kind::Notice); });
+  EXPECT_EQ(text_of(told_bob_, SessionEvent::Kind::Notice), "You have \"leg\" now.");
+  EXPECT_TRUE(ann_->sharing().holder_of(leg));
+}
+
+TEST_F(Sharing, AnOwnerTakesAwayAndTheOtherIsTold) {
+  const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg");
+  ann_->select({leg});
+  until([&] { return bob_->world().find(leg) && bob_->sharing().holder_of(leg).has_value(); });
+  EXPECT_FALSE(ann_->sharing().take_away(leg));
+  ASSERT_TRUE(bob_->sharing().take_away(leg));
+  until([&] { return has(told_ann_, SessionEvent::Kind::Notice); });
+  EXPECT_EQ(text_of(told_ann_, SessionEvent::Kind::Notice), "Bob took \"leg\" away from you.");
+}
+
+TEST_F(Sharing, ADragOfManyStepsIsOneActionAlsoWhileOthersWork) {
+  const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg");
+  const ObjectId lamp = add_box(*bob_, world::at(1, 0, 0), "lamp");
+  until_same();
+  for (int step = 1; step <= 30; ++step) {
+    const world::Edit edit = world::PlaceObject{leg, world::at(0.1 * step, 0, 0)};
+    ASSERT_TRUE(step == 1 ? ann_->history().perform(edit, "Move leg") : ann_->history().extend(edit));
+    if (step % 5 == 0) {
+      ASSERT_TRUE(bob_->history().perform(world::PlaceObject{lamp, world::at(1.0 + step, 0, 0)}, "Move lamp"));
+      until_same();
+    }
+  }
+  until_same();
+  EXPECT_NEAR(x_of(*bob_, leg), 3.0, 1e-12);
+  ASSERT_TRUE(ann_->history().undo());
+  until_same();
+  EXPECT_EQ(x_of(*bob_, leg), 0.0);
+  EXPECT_EQ(ann_->history().undo_name(), "Add leg");
+}
+
+TEST_F(Sharing, WhatIsTriedOutIsSeenHereAloneAndStaysOnTopOfOthersEdits) {
+  const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg");
+  const ObjectId lamp = add_box(*bob_, world::at(1, 0, 0), "lamp");
+  until_same();
+  ASSERT_TRUE(ann_->history().try_out(world::PlaceObject{leg, world::at(5, 0, 0)}, "Move leg"));
+  ASSERT_TRUE(bob_->history().perform(world::PlaceObject{lamp, world::at(2, 0, 0)}, "Move lamp"));
+  until([&] { return x_of(*ann_, lamp) == 2.0; });
+  EXPECT_TRUE(ann_->history().trying());
+  EXPECT_EQ(x_of(*ann_, leg), 5.0);
+  EXPECT_EQ(x_of(*bob_, leg), 0.0);
+  ASSERT_TRUE(ann_->history().take_back());
+  until_same();
+  EXPECT_EQ(x_of(*bob_, leg), 0.0);
+  ASSERT_TRUE(ann_->history().try_out(world::PlaceObject{leg, world::at(6, 0, 0)}, "Move leg"));
+  ann_->history().keep_tried();
+  until_same();
+  EXPECT_EQ(x_of(*bob_, leg), 6.0);
+  ASSERT_TRUE(ann_->history().undo());
+  until_same();
+  EXPECT_EQ(x_of(*bob_, leg), 0.0);
+}
+
+TEST_F(Sharing, GoesOnWithoutTheServerAndSendsWhatWasDoneWhenItIsBack) {
+  const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg");
+  until_same();
+  served_.stop();
+  until([&] { return has(told_ann_, SessionEvent::Kind::ServerLost); });
+  ASSERT_TRUE(ann_->history().perform(world::PlaceObject{leg, world::at(4, 0, 0)}, "Move leg"));
+  EXPECT_TRUE(ann_->files().modified()) << "the server has not got it";
+  served_.start();
+  until([&] { return has(told_ann_, SessionEvent::Kind::ServerBack); });
+  until_same();
+  EXPECT_EQ(x_of(*bob_, leg), 4.0);
+  EXPECT_FALSE(ann_->files().modified());
+}
+
+TEST_F(Sharing, WhoMayOnlyLookChangesNothing) {
+  const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg");
+  until_same();
+  const auto eve = join("Eve", Role::View);
+  run_until(*eve, [&] { return eve->world().find(leg) != nullptr; });
+  const auto moved = eve->history().perform(world::PlaceObject{leg, world::at(1, 0, 0)}, "Move leg");
+  ASSERT_FALSE(moved);
+  EXPECT_EQ(moved.error().message, "You may look at this design, but not change it.");
+  EXPECT_EQ(x_of(*eve, leg), 0.0);
+}
+
+TEST_F(Sharing, PeopleAreSeenAndHeard) {
+  interaction::View view = bob_->view().now();
+  view.world_from_eye.translation() = base::Vector3(1, 2, 3);
+  bob_->view().set(view);
+  const auto author_of_bob = [&] { return bob_->sharing().people().front().author; };
+  until([&] {
+    const auto people = ann_->sharing().people();
+    return people.size() == 2 && people[1].has_view;
+  });
+  ann_->sharing().follow(author_of_bob());
+  until([&] { return ann_->view().now().world_from_eye.translation() == base::Vector3(1, 2, 3); });
+  bob_->sharing().say("Hello\nAnn");
+  until([&] { return !ann_->sharing().lines().empty() && ann_->sharing().lines().back().is_said; });
+  EXPECT_EQ(ann_->sharing().lines().back().name, "Bob");
+  EXPECT_EQ(ann_->sharing().lines().back().text, "Hello Ann");
+  bob_->files().make_new();
+  until([&] { return ann_->sharing().people().size() == 1; });
+  EXPECT_FALSE(bob_->sharing().state());
+  EXPECT_EQ(ann_->sharing().lines().back().text, "has left");
+}
+
+TEST_F(Sharing, TellsWhyADesignCannotBeJoined) {
+  for (const std::string& link : {std::string("icome://127.0.0.1:1/table#token=x"), std::string("icome://"),
+                                 served_.link(Role::Edit) + "0"}) {
+    bob_->sharing().open(link);
+    until([&] { return has(told_bob_, SessionEvent::Kind::OpenFailed); });
+    EXPECT_EQ(text_of(told_bob_, SessionEvent::Kind::OpenFailed).find("token"), std::string::npos);
+    EXPECT_TRUE(bob_->sharing().state()) << "the design that was open stays";
+    told_bob_.clear();
+  }
+}
+
+}  // namespace
+}  // namespace icome::session
