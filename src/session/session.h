@@ -54,12 +54,12 @@ struct SessionEvent {
     AutosaveResumed,
     DeviceLost,
     DeviceBack,
-    ServerLost,   // of a shared design: one works on, and what is done is sent later
+    ServerLost,  // of a shared design: one works on, and what is done is sent later
     ServerBack,
     SharingEnds,  // the design stays here, as a new one
     Dropped,      // something that one did to a shared design did not come to be
-    NotAsItIs,  // details: things that are not seen, not felt, or not as they are
-    Notice,     // such as that the servo has no real-time priority
+    NotAsItIs,    // details: things that are not seen, not felt, or not as they are
+    Notice,       // such as that the servo has no real-time priority
   };
   Kind kind = Kind::Notice;
   std::string text = {};  // a sentence or two: what happened, and what to do

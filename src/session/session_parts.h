@@ -229,13 +229,13 @@ struct SessionParts {
   std::shared_ptr<const std::vector<std::string>> listened_to;
   DesignLoader loader;
   DesignSaver saver;
-  std::shared_ptr<JoinedDesign> joining = nullptr;  // not null: it is what the loader reads
-  std::unique_ptr<SharedDesign> shared = nullptr;   // null: the design is on no server
+  std::shared_ptr<JoinedDesign> joining = nullptr;             // not null: it is what the loader reads
+  std::unique_ptr<SharedDesign> shared = nullptr;              // null: the design is on no server
   std::vector<std::unique_ptr<BackgroundTask<bool>>> leaving;  // connections, in good order
   RecentAddresses addresses;
-  bool follows_others = false;  // the listeners are told of what others did
-  SoftPlaces places;            // of others
-  std::vector<PersonMark> people = {};                  // as they are drawn
+  bool follows_others = false;                           // the listeners are told of what others did
+  SoftPlaces places;                                     // of others
+  std::vector<PersonMark> people = {};                   // as they are drawn
   std::vector<render::SceneOutline> held_outlines = {};  // around what others hold
   bool holds_are_new = false;
   std::optional<std::uint32_t> followed = {};  // author

@@ -66,6 +66,7 @@ class SharedNews {
                               "server is back.",
                               where, it.why));
     } else if (it.state == ConversationState::Live) {
+      shared_.note_who_left();
       parts_.tell(Kind::ServerBack, fmt::format("The connection to {} is back.", where));
     } else if (!it.why.empty() && it.state == ConversationState::Joining) {
       parts_.tell(Kind::Notice, it.why);
@@ -94,8 +95,7 @@ class SharedNews {
   }
   void operator()(const collab::Person& it) {
     parts_.holds_are_new = true;
-    if (it.author == talk_.replica().author()) return;
-    shared_.add_line({0, it.author, it.name, it.here ? "is here" : "has left", false});
+    shared_.note_person(it);
   }
   void operator()(const collab::Said& it) {
     shared_.add_line({0, it.author, talk_.name_of(it.author), it.text, true});
@@ -131,9 +131,10 @@ void SessionSharing::open(const std::string& text, const std::string& name) {
   }
   parts_.recovering.reset();
   parts_.joining = std::make_shared<JoinedDesign>();
-  parts_.loader.start(collab::shown_address(*address),
-                      [address = *address, name, joined = parts_.joining](
-                          const files::DesignReadOptions& options) { return join(address, name, *joined, options); });
+  parts_.loader.start(collab::shown_address(*address), [address = *address, name, joined = parts_.joining](
+                                                           const files::DesignReadOptions& options) {
+    return join(address, name, *joined, options);
+  });
 }
 
 void SessionParts::begin_sharing(std::unique_ptr<collab::Connection> connection) {
@@ -142,11 +143,12 @@ void SessionParts::begin_sharing(std::unique_ptr<collab::Connection> connection)
   ids = world::IdSource(replica.author(), world.next_number(replica.author()));
   Edited edited;
   edited.whole = std::make_shared<const world::World>(world);
-  edited.saved = std::make_shared<const SavedWork>(SavedWork{.number = queue.posted() + 1, .by_server = true});
+  edited.saved =
+      std::make_shared<const SavedWork>(SavedWork{.number = queue.posted() + 1, .by_server = true});
   opened_number = queue.post(std::move(edited));
   for (const collab::Seen& it : shared->talk().take_seen())
     if (const auto* const person = std::get_if<collab::Person>(&it); person && person->here)
-      SharedNews(*this)(*person);
+      SharedNews (*this)(*person);
   addresses.add(collab::link_text(shared->talk().address()));
   holds_are_new = true;
 }
@@ -162,9 +164,8 @@ void SessionParts::leave_shared() {
   leaving.push_back(std::make_unique<BackgroundTask<bool>>([connection]() -> base::Result<bool> {
     const auto until = base::steady_nanoseconds() + std::chrono::nanoseconds(kMostLeaving).count();
     connection->talk().leave();
-    return connection->work_until(
-        [&] { return connection->talk().state() != ConversationState::Live; },
-        [&] { return base::steady_nanoseconds() > until; }, kMostLeaving);
+    return connection->work_until([&] { return connection->talk().state() != ConversationState::Live; },
+                                  [&] { return base::steady_nanoseconds() > until; }, kMostLeaving);
   }));
 }
 
@@ -246,7 +247,8 @@ void SessionParts::take_another_world() {
   revisions.performed();
   Edited edited;
   edited.whole = std::make_shared<const world::World>(world);
-  edited.saved = std::make_shared<const SavedWork>(SavedWork{.number = queue.posted() + 1, .by_server = true});
+  edited.saved =
+      std::make_shared<const SavedWork>(SavedWork{.number = queue.posted() + 1, .by_server = true});
   queue.post(std::move(edited));
   marked_part.reset();
   outline_is_new = look_is_new = true;
@@ -345,10 +347,12 @@ std::vector<SessionSharing::Colleague> SessionSharing::people() const {
   const collab::Conversation& talk = parts_.shared->talk();
   for (const auto& [author, person] : talk.people()) {
     if (!person.here) continue;
-    Colleague it{author, person.name, collab::shown_colour(person), person.role,
-                 author == talk.replica().author(), {}, false};
+    Colleague it{
+        author, person.name, collab::shown_colour(person), person.role, author == talk.replica().author(),
+        {},     false};
     for (const auto& [item, hold] : talk.holds())
-      if (hold.holder == author && item.kind == collab::ItemKind::Object) it.holds.push_back(ObjectId{item.id});
+      if (hold.holder == author && item.kind == collab::ItemKind::Object)
+        it.holds.push_back(ObjectId{item.id});
     const auto sighting = talk.sightings().find(author);
     it.has_view = sighting != talk.sightings().end() && sighting->second.where.view.has_value();
     result.push_back(std::move(it));
@@ -437,7 +441,8 @@ void SessionParts::renew_people() {
       const auto person = talk.people().find(hold.holder);
       const collab::Person known =
           person == talk.people().end() ? collab::Person{hold.holder} : person->second;
-      held_outlines.push_back({world::subtree(world, ObjectId{item.id}), colour_of(collab::shown_colour(known))});
+      held_outlines.push_back(
+          {world::subtree(world, ObjectId{item.id}), colour_of(collab::shown_colour(known))});
     }
     look_is_new = true;
   }

@@ -63,7 +63,7 @@ class SessionSharing {
   struct Holder {
     std::uint32_t author = 0;
     std::string name = {};
-    std::uint32_t colour = 0;  // 0xRRGGBB
+    std::uint32_t colour = 0;     // 0xRRGGBB
     world::ObjectId object = {};  // that is held
   };
   std::optional<Holder> holder_of(world::ObjectId object) const;

@@ -286,8 +286,9 @@ TEST(SharedEdit, AGroupThatIsRefusedChangesNothing) {
   const auto id = ids.next<world::GeometryId>();
   world::applied(main, world::CreateGeometry{id, world::one_triangle()});
   const std::uint64_t before = world::hash(main);
-  EXPECT_FALSE(world::perform_shared(main, world::EditGroup{{world::MoveVertices{id, {0}, {{5.0, 0.0, 0.0}}},
-                                                      world::MoveVertices{id, {9}, {{7.0, 0.0, 0.0}}}}}));
+  EXPECT_FALSE(
+      world::perform_shared(main, world::EditGroup{{world::MoveVertices{id, {0}, {{5.0, 0.0, 0.0}}},
+                                                    world::MoveVertices{id, {9}, {{7.0, 0.0, 0.0}}}}}));
   EXPECT_EQ(world::hash(main), before);
 }
 

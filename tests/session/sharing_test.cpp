@@ -1,9 +1,8 @@
 // Sessions that work on one design, by a server on the loopback.
-#include "session/session_sharing.h"
-
 #include <algorithm>
 
 #include "collab/server/served_design.h"
+#include "session/session_sharing.h"
 #include "session/sessions.h"
 
 namespace icome::session {
@@ -36,7 +35,8 @@ class Sharing : public testing::Test {
     auto session = start();
     session->sharing().open(served_.link(role));
     const auto events = run_until(*session, [&] { return session->sharing().state().has_value(); });
-    EXPECT_TRUE(has(events, SessionEvent::Kind::Opened) || has(session->update(), SessionEvent::Kind::Opened));
+    EXPECT_TRUE(has(events, SessionEvent::Kind::Opened) ||
+                has(session->update(), SessionEvent::Kind::Opened));
     unsetenv("ICOME_NAME");
     return session;
   }
@@ -114,7 +114,8 @@ TEST_F(Sharing, ADragOfManyStepsIsOneActionAlsoWhileOthersWork) {
     const world::Edit edit = world::PlaceObject{leg, world::at(0.1 * step, 0, 0)};
     ASSERT_TRUE(step == 1 ? ann_->history().perform(edit, "Move leg") : ann_->history().extend(edit));
     if (step % 5 == 0) {
-      ASSERT_TRUE(bob_->history().perform(world::PlaceObject{lamp, world::at(1.0 + step, 0, 0)}, "Move lamp"));
+      ASSERT_TRUE(
+          bob_->history().perform(world::PlaceObject{lamp, world::at(1.0 + step, 0, 0)}, "Move lamp"));
       until_same();
     }
   }
@@ -196,10 +197,12 @@ TEST_F(Sharing, PeopleAreSeenAndHeard) {
 
 TEST_F(Sharing, TellsWhyADesignCannotBeJoined) {
   for (const std::string& link : {std::string("icome://127.0.0.1:1/table#token=x"), std::string("icome://"),
-                                 served_.link(Role::Edit) + "0"}) {
+                                  served_.link(Role::Edit) + "0"}) {
     bob_->sharing().open(link);
     until([&] { return has(told_bob_, SessionEvent::Kind::OpenFailed); });
-    EXPECT_EQ(text_of(told_bob_, SessionEvent::Kind::OpenFailed).find("token"), std::string::npos);
+    EXPECT_EQ(text_of(told_bob_, SessionEvent::Kind::OpenFailed)
+                  .find(served_.address(Role::Edit).token.substr(0, 20)),
+              std::string::npos);
     EXPECT_TRUE(bob_->sharing().state()) << "the design that was open stays";
     told_bob_.clear();
   }

@@ -131,8 +131,7 @@ TEST_F(MainThreadTest, IsHardlyEverLongAtWorkWhileThingsAreDragged) {
   for (const char* name : {"Plinth", "Scan", "Brass-solid", "Rubber-knot"}) {
     drag(place_of(name));
     expect_few_long_calls(name);
-    ASSERT_TRUE(until([&] { return session().history().can_undo(); }))
-        << name;  // it may be worked out still
+    ASSERT_TRUE(until([&] { return session().history().can_undo(); })) << name;  // it may be worked out still
     ASSERT_TRUE(session().history().undo()) << name;
     session().select({});
     live();

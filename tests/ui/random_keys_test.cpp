@@ -216,8 +216,7 @@ class RandomKeysTest : public WindowTest, public ::testing::WithParamInterface<i
   void expect_history_makes_design() {
     const std::uint64_t now = hash(world());
     int undone = 0;
-    for (; session().history().can_undo(); ++undone)
-      ASSERT_TRUE(session().history().undo()) << told();
+    for (; session().history().can_undo(); ++undone) ASSERT_TRUE(session().history().undo()) << told();
     ASSERT_EQ(hash(world()), empty_) << told();
     for (; undone > 0; --undone) ASSERT_TRUE(session().history().redo()) << told();
     ASSERT_EQ(hash(world()), now) << told();
@@ -240,8 +239,7 @@ TEST_P(RandomKeysTest, LeaveTheDesignWhatItsHistoryMakesOfItAndTheKeyboardSomewh
     close_what_opened();
     ASSERT_NO_FATAL_FAILURE(expect_focus()) << "step " << i;
     is_due = is_due || i % 25 == 0;
-    if (!is_due || session().history().trying())
-      continue;  // what is only tried out is undone otherwise
+    if (!is_due || session().history().trying()) continue;  // what is only tried out is undone otherwise
     ASSERT_NO_FATAL_FAILURE(expect_history_makes_design()) << "step " << i;
     ++compared;
     is_due = false;

@@ -32,8 +32,7 @@ base::Result<std::unique_ptr<Connection>> Connection::create(const DesignAddress
 }
 
 void Connection::work() {
-  for (NetworkThread::News& news : network_->take())
-    std::visit([this](auto& it) { take(it); }, news);
+  for (NetworkThread::News& news : network_->take()) std::visit([this](auto& it) { take(it); }, news);
   send();
 }
 

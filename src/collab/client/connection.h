@@ -11,9 +11,9 @@
 
 namespace icome::collab {
 
-/// A conversation over the network: connected with the server of an address, and again whenever the connection
-/// is lost. Owns the thread that does so. The conversation itself goes on in work() and work_until() alone, on
-/// the thread that calls them, which may be another one later.
+/// A conversation over the network: connected with the server of an address, and again whenever the
+/// connection is lost. Owns the thread that does so. The conversation itself goes on in work() and
+/// work_until() alone, on the thread that calls them, which may be another one later.
 class Connection {
  public:
   /// Fails for an address without TLS that is not of this machine.
@@ -27,8 +27,8 @@ class Connection {
   /// Takes in what has come, and sends what is to be said. Never waits.
   void work();
   /// Works until `done` holds, which is asked after each thing that happens. False when `stops` held before,
-  /// which is asked some times a second. Fails when the server does not let this client in (any more), or when
-  /// it was not reached for as long as `patience`.
+  /// which is asked some times a second. Fails when the server does not let this client in (any more), or
+  /// when it was not reached for as long as `patience`.
   base::Result<bool> work_until(const std::function<bool()>& done, const std::function<bool()>& stops,
                                 std::chrono::milliseconds patience);
   /// The reason why there was no connection, the last time.

@@ -86,7 +86,10 @@ SharedBytes Conversation::next_frame(std::int64_t now) {
     alive_said_ = now;
     queue(Alive{std::uint64_t(now)});
   }
-  if (state_ == ConversationState::Live) queue_edits();
+  if (state_ == ConversationState::Live) {
+    queue_edits();
+    if (std::exchange(asks_again_, false)) ask_again();
+  }
   std::string frame;
   while (!outgoing_.empty() && frame.size() < kFrameBytes) {
     add_to_frame(frame, outgoing_.front());
@@ -282,6 +285,11 @@ void Conversation::hear(FloorChanged& message) {
 void Conversation::hear(FloorState& message) {
   holds_.clear();
   for (const FloorChanged& hold : message.holds) holds_[hold.item] = hold;
+  asks_again_ = true;
+}
+
+/// Asks for what was held before the connection was lost, and for what was wanted meanwhile.
+void Conversation::ask_again() {
   for (const auto& [item, waits] : wanted_) {
     const auto found = holds_.find(item);
     if (found == holds_.end() || found->second.holder != replica_.author()) queue(Select{item, waits});
@@ -359,7 +367,12 @@ base::Result<std::uint64_t> Conversation::turn(bool back) {
 
 void Conversation::select(Item item, bool waits) {
   wanted_[item] = waits;
-  if (connected_ && welcome_) queue(Select{item, waits});
+  if (state_ != ConversationState::Live || asks_again_) {
+    asks_again_ = true;
+    return;
+  }
+  queue_edits();  // it may be of these
+  queue(Select{item, waits});
 }
 
 void Conversation::deselect(Item item) {

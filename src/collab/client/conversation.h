@@ -16,8 +16,8 @@ namespace icome::collab {
 
 /// Who a client is.
 struct ClientIdentity {
-  std::string key = {};             // the same one is the same author to a server; nobody else should know it
-  std::string name = {};            // of the person
+  std::string key = {};      // the same one is the same author to a server; nobody else should know it
+  std::string name = {};     // of the person
   std::uint32_t colour = 0;  // 0xRRGGBB; 0: the one of the author's number
   std::string program = {};
   bool only_reads = false;  // nothing will be changed
@@ -139,6 +139,7 @@ class Conversation {
   void queue(const ClientMessage& message);
   void queue_edit(Submit submit);
   void queue_edits();
+  void ask_again();
   base::Result<void> notice_restored(std::uint32_t author);
   void want_pieces();
   void finish_loading();
@@ -174,6 +175,7 @@ class Conversation {
 
   Holds holds_;
   std::map<Item, bool> wanted_;  // what was selected, so that it is asked for again; waits?
+  bool asks_again_ = false;      // for what is wanted, once all own edits are on their way
   std::map<std::uint32_t, Person> people_;
   std::map<std::uint32_t, Sighting> sightings_;
   std::vector<Seen> seen_;

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::int64_t kShortestPause = 100;  // ms between two tries to connect; doubled each time
 constexpr std::int64_t kLongestPause = 2'000;
-constexpr std::size_t kMostFrames = 4;             // that wait to be sent
-constexpr std::size_t kMostBytes = 256U << 20U;    // of frames that wait for the owner
+constexpr std::size_t kMostFrames = 4;           // that wait to be sent
+constexpr std::size_t kMostBytes = 256U << 20U;  // of frames that wait for the owner
 
 }  // namespace
 

@@ -19,8 +19,8 @@
 namespace icome::collab {
 
 /// The thread that keeps a client connected with the server of an address, and connects again whenever the
-/// connection is lost: frames come and go by boxes, so that its owner, one other thread, never waits. Owns the
-/// thread and its sockets.
+/// connection is lost: frames come and go by boxes, so that its owner, one other thread, never waits. Owns
+/// the thread and its sockets.
 class NetworkThread final : private LinkEvents {
  public:
   struct Opened {};

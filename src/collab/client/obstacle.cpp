@@ -13,7 +13,8 @@ std::optional<FloorChanged> hold_below(const Holds& holds, const world::World& w
                                        world::ObjectId object) {
   for (const auto& [item, hold] : holds) {
     if (item.kind != ItemKind::Object || hold.holder == author) continue;
-    if (world::is_within(world, world::ObjectId{item.id}, object)) return hold;
+    const world::ObjectId held{item.id};  // which may not have come yet
+    if (world.find(held) && world::is_within(world, held, object)) return hold;
   }
   return std::nullopt;
 }

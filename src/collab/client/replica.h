@@ -44,8 +44,8 @@ class Replica {
   /// Is the world beneath all tentative edits durable, so that one may resume from it?
   bool can_resume() const { return has_base_ && base_ <= durable_; }
 
-  /// Calls `listener` with each edit that world() goes through from now on, in the form that leads another copy
-  /// of it along, and with null when it has become another world.
+  /// Calls `listener` with each edit that world() goes through from now on, in the form that leads another
+  /// copy of it along, and with null when it has become another world.
   void on_change(std::function<void(const world::Edit*)> listener) { listener_ = std::move(listener); }
 
   /// The author whose edits are one's own, and the highest number that it has used.
@@ -55,8 +55,8 @@ class Replica {
   // ---- one's own edits
 
   /// Applies an edit and queues it for the server. Where it `goes_on` with the last action, as the steps of a
-  /// drag do, it is undone with that, and may replace its last edit where that has not been sent and both only
-  /// place the same objects or move the same vertices. Gives its number.
+  /// drag do, it is undone with that, and may replace its last edit where that has not been sent and both
+  /// only place the same objects or move the same vertices. Gives its number.
   base::Result<std::uint64_t> perform(const world::Edit& edit, const std::string& name,
                                       std::vector<std::uint64_t> fences = {}, bool goes_on = false);
   /// Takes the last own action back, as a new edit, or fails and says what is in the way: somebody's later

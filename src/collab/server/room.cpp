@@ -183,6 +183,8 @@ void Room::tick(std::int64_t now) {
 
 void Room::end(const std::string& why, Parting code) {
   for (auto& [link, member] : members_) part(member, why, code);
+  // Nobody waits for the leases of those who have gone.
+  for (const auto& [author, known] : authors_) floor_.release_all(author);
 }
 
 void Room::set_role(LinkId link, std::optional<Role> role) {

@@ -326,8 +326,7 @@ base::Result<void> SceneRenderer::Parts::make_mean(const ScenePictureWish& wish)
   return draw_whole(program, &sum.colour);
 }
 
-base::Result<void> SceneRenderer::Parts::outline(const ScenePictureWish& wish,
-                                                 const SceneOutline& what) {
+base::Result<void> SceneRenderer::Parts::outline(const ScenePictureWish& wish, const SceneOutline& what) {
   std::vector<world::ObjectId> objects = what.objects;
   std::sort(objects.begin(), objects.end());
   std::vector<PlannedItem> items;

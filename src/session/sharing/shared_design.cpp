@@ -7,8 +7,8 @@ namespace icome::session {
 namespace {
 
 constexpr std::size_t kMostLines = 500;
-/// A server lets nobody have very many things; those behind them may be changed all the same while nobody else
-/// has them.
+/// A server lets nobody have very many things; those behind them may be changed all the same while nobody
+/// else has them.
 constexpr std::size_t kMostHeld = 200;
 
 }  // namespace
@@ -52,6 +52,20 @@ void SharedDesign::add_line(SharedLine line) {
   line.number = ++lines_so_far_;
   lines_.push_back(std::move(line));
   if (lines_.size() > kMostLines) lines_.pop_front();
+}
+
+void SharedDesign::note_person(const collab::Person& person) {
+  if (person.author == talk().replica().author()) return;
+  const bool changes = person.here ? here_.insert(person.author).second : here_.erase(person.author) > 0;
+  if (changes) add_line({0, person.author, person.name, person.here ? "is here" : "has left", false});
+}
+
+void SharedDesign::note_who_left() {
+  const std::set<std::uint32_t> before = here_;
+  for (const std::uint32_t author : before)
+    if (const auto found = talk().people().find(author);
+        found != talk().people().end() && !found->second.here)
+      note_person(found->second);
 }
 
 }  // namespace icome::session

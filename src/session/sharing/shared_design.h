@@ -53,6 +53,10 @@ class SharedDesign {
   /// What people said and did, the newest last; old lines go.
   const std::deque<SharedLine>& lines() const { return lines_; }
   void add_line(SharedLine line);
+  /// Adds a line for somebody else who comes or goes, once for each time.
+  void note_person(const collab::Person& person);
+  /// Likewise for those who went while there was no connection.
+  void note_who_left();
 
   /// The connection, to be left in good order.
   std::unique_ptr<collab::Connection> release() { return std::move(connection_); }
@@ -62,6 +66,7 @@ class SharedDesign {
   Way way_;
   std::set<world::ObjectId> held_;  // or asked for
   std::set<collab::Item> waited_;
+  std::set<std::uint32_t> here_;  // others, as the lines say
   std::deque<SharedLine> lines_;
   std::uint64_t lines_so_far_ = 0;
 };

@@ -13,7 +13,8 @@ constexpr double kShortest = 1.0 / 60.0, kLongest = 0.15;  // s, of a way
 std::optional<SharedPose> between(const std::optional<SharedPose>& from, const std::optional<SharedPose>& to,
                                   double part) {
   if (!from || !to) return to;
-  return SharedPose{from->position + part * (to->position - from->position), from->turn.slerp(part, to->turn)};
+  return SharedPose{from->position + part * (to->position - from->position),
+                    from->turn.slerp(part, to->turn)};
 }
 
 Whereabouts between(const Whereabouts& from, const Whereabouts& to, double part) {

@@ -7,8 +7,8 @@
 
 namespace icome::session {
 
-/// The places of others' pointers, views and heads, which come some 30 times a second, at any moment: each goes
-/// on evenly from where it is to where it was told last.
+/// The places of others' pointers, views and heads, which come some 30 times a second, at any moment: each
+/// goes on evenly from where it is to where it was told last.
 class SoftPlaces {
  public:
   /// Takes in what is new, and moves on to this moment (s). Does anything move, come or go?

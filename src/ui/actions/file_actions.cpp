@@ -247,16 +247,18 @@ void FileActions::ask(const std::function<void()>& then) {
   const auto& left_out = session_.files().left_out();
   if (const auto shared = session_.sharing().state()) {
     box->setText(QString("Leave %1 now?").arg(design_name()));
-    box->setInformativeText(QString("The server has not got %L1 of your edits yet, and they are lost when you leave. "
-                                    "Wait until there is a connection, or save a copy in a file.")
-                                .arg(shared->unsent));
+    box->setInformativeText(
+        QString("The server has not got %L1 of your edits yet, and they are lost when you leave. "
+                "Wait until there is a connection, or save a copy in a file.")
+            .arg(shared->unsent));
     box->button(QMessageBox::Save)->setText("&Save a Copy\u2026");
   } else {
     box->setInformativeText(
-      left_out.empty() ? QString("Without saving, what you did since the last time is lost.")
-                       : QString("%1 cannot hold all of your design: %2\nSave it as .icome, or what is left "
-                                 "out is lost.")
-                             .arg(design_name(), text_of_some(left_out)));
+        left_out.empty()
+            ? QString("Without saving, what you did since the last time is lost.")
+            : QString("%1 cannot hold all of your design: %2\nSave it as .icome, or what is left "
+                      "out is lost.")
+                  .arg(design_name(), text_of_some(left_out)));
   }
   box->button(QMessageBox::Discard)->setText("&Don\u2019t Save");
   box->setDefaultButton(QMessageBox::Save);

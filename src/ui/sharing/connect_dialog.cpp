@@ -108,8 +108,9 @@ void ConnectDialog::check() {
   const QString text = address_->text().trimmed();
   const auto shown = SessionSharing::shown(text.toStdString());
   open_->setEnabled(shown.has_value());
-  remark_->say(shown ? "Opens " + one_line(*shown)
-                     : text.isEmpty() ? QString() : one_line(shown.error().message));
+  remark_->say(shown            ? "Opens " + one_line(*shown)
+               : text.isEmpty() ? QString()
+                                : one_line(shown.error().message));
 }
 
 void ConnectDialog::finish() {

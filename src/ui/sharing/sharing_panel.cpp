@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kEvery = 100;        // ms, between two looks
 constexpr int kMostHeldNames = 3;  // of what somebody holds
-constexpr int kMostSaid = 2'000;  // bytes that a server passes on
+constexpr int kMostSaid = 2'000;   // bytes that a server passes on
 constexpr int kAuthorRole = Qt::UserRole;
 
 QString held_words(const session::Session& session, const SessionSharing::Colleague& person) {
@@ -66,8 +66,8 @@ QString sharing_words(const session::Session& session) {
   if (state->connection == Connection::Joining) return name + ": connecting" + waits;
   const auto people = session.sharing().people().size();
   const QString delay = state->delay ? QString(", %1 ms").arg(*state->delay) : QString();
-  return QString("%1: %2%3").arg(name, people == 1 ? QString("you alone") : QString("%1 people").arg(people),
-                                 delay) +
+  return QString("%1: %2%3")
+             .arg(name, people == 1 ? QString("you alone") : QString("%1 people").arg(people), delay) +
          (state->unsent > 20 ? waits : QString());
 }
 
@@ -127,7 +127,8 @@ SharingPanel::Parts::Parts(session::Session& of, Hooks its_hooks, SharingPanel& 
   open->setObjectName("sharing.open");
   people->setObjectName("sharing.people");
   people->setAccessibleName("People who are here");
-  people->setToolTip("Enter, or a double click, looks through somebody's eyes; the next move of yours ends it");
+  people->setToolTip(
+      "Enter, or a double click, looks through somebody's eyes; the next move of yours ends it");
   people->setMaximumHeight(40 * kGrid);
   words->setObjectName("sharing.words");
   words->setAccessibleName("What people said");
@@ -149,9 +150,10 @@ SharingPanel::Parts::Parts(session::Session& of, Hooks its_hooks, SharingPanel& 
 
 void SharingPanel::Parts::look() {
   const bool is_shared = session.sharing().state().has_value();
-  state->say(is_shared ? sharing_tip(session)
-                       : QString("This design is on no server. With the address of one that is, several people "
-                                 "work on it together."));
+  state->say(is_shared
+                 ? sharing_tip(session)
+                 : QString("This design is on no server. With the address of one that is, several people "
+                           "work on it together."));
   open->setVisible(!is_shared);
   for (QWidget* it : std::initializer_list<QWidget*>{people, words, line}) it->setVisible(is_shared);
   if (!is_shared) {
@@ -167,7 +169,8 @@ void SharingPanel::Parts::show_people() {
   const auto all = session.sharing().people();
   QStringList texts;
   for (const auto& it : all)
-    texts << QString("%1 %2").arg(it.author).arg(words_of(session, it, session.sharing().followed() == it.author));
+    texts << QString("%1 %2").arg(it.author).arg(
+        words_of(session, it, session.sharing().followed() == it.author));
   if (texts == shown_people && people->count() == int(all.size())) return;
   shown_people = texts;
   const int row = people->currentRow();

@@ -21,9 +21,11 @@ TEST(Obstacle, IsWhereTheFloorOfTheServerSeesOne) {
     for (int i = 0; i < 150; ++i) (void)world::apply(world, edits.next(world));
     Floor floor;
     for (const auto& [id, object] : world.objects())
-      if (random.index(8) == 0) (void)floor.request(world, 1 + std::uint32_t(random.index(kPeople)), item_of(id));
+      if (random.index(8) == 0)
+        (void)floor.request(world, 1 + std::uint32_t(random.index(kPeople)), item_of(id));
     for (const auto& [id, geometry] : world.geometries())
-      if (random.index(8) == 0) (void)floor.request(world, 1 + std::uint32_t(random.index(kPeople)), item_of(id));
+      if (random.index(8) == 0)
+        (void)floor.request(world, 1 + std::uint32_t(random.index(kPeople)), item_of(id));
     Holds holds;
     for (const auto& [item, hold] : floor.holds()) holds[item] = {item, hold.holder, hold.fence, 0};
     for (int i = 0; i < 200; ++i) {

@@ -139,7 +139,8 @@ TEST(Replica, UndoesADragWhoseStepsWereOrderedMeanwhileAtOnce) {
 TEST(Replica, MergesTheStepsOfADragOfManyThings) {
   Copy it;
   for (const double x : {1.0, 2.0}) {
-    const world::EditGroup both{{world::PlaceObject{it.leg, at(x, 0, 0)}, world::PlaceObject{it.lamp, at(x, 0, 0)}}};
+    const world::EditGroup both{
+        {world::PlaceObject{it.leg, at(x, 0, 0)}, world::PlaceObject{it.lamp, at(x, 0, 0)}}};
     ASSERT_TRUE(it.replica.perform(both, "Move two", {}, x > 1.0));
   }
   EXPECT_EQ(it.replica.pending(), 1U);

@@ -176,6 +176,16 @@ TEST_F(RoomTest, TellsOfAHoldThatAnOwnerTookAway) {
   EXPECT_EQ(told.front().taken_by, 2U);
 }
 
+TEST_F(RoomTest, WaitsForNobodysLeaseOnceItHasEnded) {
+  join(1, 1, Role::Edit, "Ann");
+  say(1, Select{item_of(table_)});
+  heard(1);
+  room_->leave(1);
+  EXPECT_FALSE(room_->is_idle()) << "Ann may come back for it";
+  room_->end("The server stops.", Parting::ServerStops);
+  EXPECT_TRUE(room_->is_idle());
+}
+
 TEST_F(RoomTest, MergesTheDragsOfOthersForWhoLagsBehind) {
   settings_.merge_from = 10;
   open({});

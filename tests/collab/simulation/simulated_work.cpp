@@ -54,13 +54,14 @@ void SimulatedWork::make_client(Client& client, bool same_key) {
   client.talk =
       std::make_unique<Conversation>(address, ClientIdentity{client.key, "Ann", 1, "test"}, factory_);
   client.copy = std::make_shared<world::World>();
-  client.talk->replica().on_change([this, talk = client.talk.get(), copy = client.copy](const world::Edit* it) {
-    if (it == nullptr) {
-      *copy = talk->replica().world();
-    } else if (!world::apply(*copy, *it)) {
-      fault_ = "A replica tells of an edit that does not apply to a copy of it.";
-    }
-  });
+  client.talk->replica().on_change(
+      [this, talk = client.talk.get(), copy = client.copy](const world::Edit* it) {
+        if (it == nullptr) {
+          *copy = talk->replica().world();
+        } else if (!world::apply(*copy, *it)) {
+          fault_ = "A replica tells of an edit that does not apply to a copy of it.";
+        }
+      });
   client.edits.reset();
   client.link.reset();
   client.up = client.down = {};

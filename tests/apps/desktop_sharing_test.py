@@ -1,0 +1,123 @@
+"""Two people at their windows, on two displays, shape one design on a server; a third one without a window tells
+what the server says."""
+import json
+import unittest
+
+from desktop_program import Desktop, DesktopTest, Screen, shows_banner, wait_for
+from icome_program import run
+from shared_design import Server, Watcher, line
+
+LEG = line(op="create", shape="box", name="leg", size=[0.2, 0.2, 0.2])
+
+
+def is_ann(red, green, blue):
+    """Of a line in the colour of the second author, who comes after the script."""
+    return red < 60 and 130 < green < 190 and 90 < blue < 140
+
+
+class DesktopSharingTest(DesktopTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.other = Screen(*cls.SIZE)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.other.close()
+        super().tearDownClass()
+
+    def setUp(self):
+        super().setUp()
+        self.server = Server(self.folder / "store")
+        self.addCleanup(self.server.__exit__)
+        self.link = self.server.invite()
+
+    def sit_down(self, screen, name):
+        """Somebody's window with the design."""
+        home = self.folder / name
+        home.mkdir()
+        desktop = Desktop(screen, home, self.link, "--theme", "light", environment={"ICOME_NAME": name})
+        self.addCleanup(self.clear_away, desktop)
+        desktop.open()
+        desktop.wait_title("^table - ICOME$")
+        desktop.settled_scene()
+        desktop.key("s")
+        return desktop
+
+    @staticmethod
+    def middle(desktop):
+        _, _, width, height = desktop.scene_place()
+        return width / 2, height / 2
+
+    def drag_middle(self, desktop):
+        x, y = self.middle(desktop)
+        desktop.drag((x, y), (x + 60, y + 10))
+
+    def test_two_windows_on_two_displays(self):
+        with Watcher(self.link, LEG + "\n", name="Script") as third:
+            third.until(lambda it: it.get("applied") == 1)
+            ann, bob = self.sit_down(self.screen, "Ann"), self.sit_down(self.other, "Bob")
+            third.until(lambda it: it["event"] == "person" and it["name"] == "Bob")
+
+            ann.click(self.middle(ann))
+            hold = third.until(lambda it: it["event"] == "floor")
+            self.assertEqual((hold["holder"], hold["item"]["name"]), ("Ann", "leg"))
+            bob.wait_scene("a line in Ann's colour", lambda it: len(it.places(is_ann, 1)) > 60)
+            self.keep(bob, "sharing-held")
+
+            self.drag_middle(bob)
+            wait_for("the refusal", lambda: shows_banner(bob, "error"))
+            self.keep(bob, "sharing-refused")
+
+            before = bob.settled_scene()
+            self.drag_middle(ann)
+            moved = third.until(lambda it: it["event"] == "edit")
+            self.assertEqual((moved["name"], moved["kind"]), ("Ann", "translate"), "Bob's drag went nowhere")
+            there = bob.wait_scene("the leg elsewhere", lambda it: it.changed(before) > 0.003)
+
+            ann.key("ctrl+shift+a")  # selects nothing: Bob may have it
+            third.until(lambda it: it["event"] == "floor" and it["holder"] is None)
+            ann.key("ctrl+z")
+            undone = third.until(lambda it: it["event"] == "edit" and it["name"] == "Ann" and it["sequence"]
+                                 > moved["sequence"])
+            self.assertEqual(undone["items"][0]["name"], "leg")
+            bob.wait_scene("the leg back", lambda it: it.changed(there) > 0.003)
+            self.drag_middle(bob)
+            third.until(lambda it: it["event"] == "edit" and it["name"] == "Bob")
+
+            self.server.kill()
+            wait_for("the word that the server is gone", lambda: shows_banner(bob, "warning"))
+            ann.point((5, 5))
+            lonely = ann.settled_scene()
+            bob.key("ctrl+z")
+            self.server.start()
+            third.until(lambda it: it["event"] == "edit" and it["name"] == "Bob")
+            ann.wait_scene("what Bob did without the server", lambda it: it.changed(lonely) > 0.003)
+
+            self.say(bob, "Hello all")
+            said = third.until(lambda it: it["event"] == "chat")
+            self.assertEqual((said["name"], said["text"]), ("Bob", "Hello all"))
+            self.keep(ann, "sharing-ann")
+            self.keep(bob, "sharing-bob")
+
+            bob.quit()
+            self.assertEqual(bob.wait_end(), 0)
+            third.until(lambda it: it["event"] == "person" and it["name"] == "Bob" and not it["here"])
+            ann.quit()
+            self.assertEqual(ann.wait_end(), 0)
+        whole = json.loads(run("info", self.link, "--json").stdout)
+        self.assertEqual(whole["objects"], 1)
+
+    def say(self, desktop, text):
+        """In the panel of people, by keyboard: its last stop is the line for words."""
+        desktop.key("ctrl+shift+p")
+        desktop.find_window("Find a Command")
+        desktop.type("people")
+        desktop.key("Return")
+        desktop.key("Tab", "Tab")
+        desktop.type(text)
+        desktop.key("Return")
+
+
+if __name__ == "__main__":
+    unittest.main()
