@@ -9,19 +9,12 @@
 #include "collab/link/certificate.h"
 #include "collab/protocol/address.h"
 #include "collab/server/token.h"
-#include "collab/storage/sqlite_op_log.h"
-#include "collab/storage/store_folder.h"
+#include "collab/storage/design_state.h"
+#include "collab/storage/store.h"
 #include "io/host_port.h"
 
 namespace icome::apps {
 namespace {
-
-base::Result<collab::StoreFolder> store_of(const ServingOptions& options) {
-  auto path = options.store.empty() ? collab::StoreFolder::default_path()
-                                    : base::Result<std::filesystem::path>(options.store);
-  if (!path) return tl::unexpected(path.error());
-  return collab::StoreFolder::open(*path);
-}
 
 /// "90s", "30m", "8h" or "7d" in ms.
 base::Result<std::int64_t> duration_of(std::string_view text) {
@@ -46,8 +39,8 @@ collab::Role role_of(const std::string& word) {
 
 /// Host, port and fingerprint of the address.
 base::Result<collab::DesignAddress> place_of(const ServingOptions& options,
-                                             const collab::StoreFolder& folder) {
-  const auto served = folder.address();
+                                             const collab::Store& store) {
+  const auto served = store.address();
   if (!served) return tl::unexpected(served.error());
   collab::DesignAddress address;
   if (*served) {
@@ -63,27 +56,26 @@ base::Result<collab::DesignAddress> place_of(const ServingOptions& options,
     address.port = std::uint16_t(place->port);
   }
   if (address.host.empty() || address.port == 0)
-    return base::fail(folder.path().string() +
+    return base::fail(store.shown() +
                       ": nobody has served this store yet: start icome serve, or say --server HOST:PORT.");
-  if (!address.fingerprint.empty()) return address;
-  auto fingerprint = collab::fingerprint_of(folder.certificate());
+  if (!address.fingerprint.empty() || store.folder() == nullptr) return address;
+  auto fingerprint = collab::fingerprint_of(store.folder()->certificate());
   if (!fingerprint) return tl::unexpected(fingerprint.error());
   address.fingerprint = std::move(*fingerprint);
   return address;
 }
 
 /// A design that is there, or is made for its owner.
-base::Result<void> ensure_design(const collab::StoreFolder& folder, const std::string& design,
-                                 bool may_make) {
-  auto log = collab::SqliteOpLog::open(folder.designs());
+base::Result<void> ensure_design(const collab::Store& store, const std::string& design, bool may_make) {
+  const auto log = store.log();
   if (!log) return tl::unexpected(log.error());
-  const auto found = log->find(design);
+  const auto found = (*log)->find(design);
   if (!found) return tl::unexpected(found.error());
   if (*found) return {};
   if (!may_make)
     return base::fail(
-        fmt::format("{}: there is no design \"{}\"; --role own makes one.", folder.path().string(), design));
-  return log->create(design);
+        fmt::format("{}: there is no design \"{}\"; --role own makes one.", store.shown(), design));
+  return (*log)->create(design);
 }
 
 }  // namespace
@@ -92,16 +84,16 @@ base::Result<std::string> invitation_link(const ServingOptions& options) {
   if (const auto good = collab::check_design_name(options.design); !good) return tl::unexpected(good.error());
   const auto lasts = duration_of(options.lasts);
   if (!lasts) return tl::unexpected(lasts.error());
-  const auto folder = store_of(options);
-  if (!folder) return tl::unexpected(folder.error());
-  auto address = place_of(options, *folder);
+  const auto store = collab::Store::open(options.store);
+  if (!store) return tl::unexpected(store.error());
+  auto address = place_of(options, *store);
   if (!address) return tl::unexpected(address.error());
   const collab::Role role = role_of(options.role);
-  if (const auto there = ensure_design(*folder, options.design, role == collab::Role::Own); !there)
+  if (const auto there = ensure_design(*store, options.design, role == collab::Role::Own); !there)
     return tl::unexpected(there.error());
   auto id = collab::make_invitation_id();
   if (!id) return tl::unexpected(id.error());
-  const auto signer = collab::TokenSigner::open(folder->token_key());
+  const auto signer = store->signer();
   if (!signer) return tl::unexpected(signer.error());
   auto token = signer->sign({std::move(*id), options.design, role, collab::wall_milliseconds() + *lasts});
   if (!token) return tl::unexpected(token.error());
@@ -119,13 +111,13 @@ int run_invite(const ServingOptions& options) {
 
 int run_revoke(const ServingOptions& options) {
   const auto failed = [](const base::Error& error) { return tell(error.message), kFailed; };
-  const auto folder = store_of(options);
-  if (!folder) return failed(folder.error());
+  const auto store = collab::Store::open(options.store);
+  if (!store) return failed(store.error());
   std::string id = options.link;
   if (collab::is_design_address(options.link)) {
     const auto address = collab::design_address(options.link);
     if (!address) return failed(address.error());
-    const auto signer = collab::TokenSigner::open(folder->token_key());
+    const auto signer = store->signer();
     if (!signer) return failed(signer.error());
     // Whether it has expired does not matter here.
     const auto invitation = signer->check(address->token, address->design, 0);
@@ -135,9 +127,9 @@ int run_revoke(const ServingOptions& options) {
     return failed(
         {fmt::format("\"{}\" is neither a link nor the id of an invitation (32 hexadecimal digits).", id)});
   }
-  auto log = collab::SqliteOpLog::open(folder->designs());
+  const auto log = store->log();
   if (!log) return failed(log.error());
-  if (const auto done = log->revoke(id); !done) return failed(done.error());
+  if (const auto done = (*log)->revoke(id); !done) return failed(done.error());
   tell("the link lets nobody in any more; a server that runs sends those away who came by it.");
   return 0;
 }

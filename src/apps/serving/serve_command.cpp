@@ -9,8 +9,7 @@
 #include "apps/serving/invite_command.h"
 #include "apps/terminal.h"
 #include "collab/server/design_server.h"
-#include "collab/storage/sqlite_op_log.h"
-#include "collab/storage/store_folder.h"
+#include "collab/storage/store.h"
 #include "io/host_port.h"
 
 namespace icome::apps {
@@ -32,6 +31,8 @@ base::Result<collab::Endpoint> endpoint_from(const std::string& text, std::uint1
 base::Result<collab::ServeSettings> understood_serve(const ServingOptions& options) {
   collab::ServeSettings settings;
   settings.store = options.store;
+  settings.files = options.files;
+  settings.bus = options.bus;
   settings.certificate = options.certificate;
   settings.key = options.key;
   settings.insecure = options.insecure;
@@ -48,34 +49,36 @@ base::Result<collab::ServeSettings> understood_serve(const ServingOptions& optio
 }
 
 /// A link to paste for somebody who begins, or how to get one.
-base::Result<std::string> first_words(const collab::DesignServer& server) {
-  auto log = collab::SqliteOpLog::open(server.store() / "designs.sqlite");
+base::Result<std::string> first_words(const ServingOptions& options) {
+  const auto store = collab::Store::open(options.store);
+  if (!store) return tl::unexpected(store.error());
+  const auto log = store->log();
   if (!log) return tl::unexpected(log.error());
-  const auto designs = log->designs();
+  const auto designs = (*log)->designs();
   if (!designs) return tl::unexpected(designs.error());
   if (designs->size() > 1)
     return fmt::format("{} designs; icome invite NAME --role edit prints a link to one of them.\n",
                        designs->size());
-  ServingOptions options;
-  options.store = server.store();
-  options.design = designs->empty() ? kFirstDesign : designs->front().name;
-  options.role = "own";
-  const auto link = invitation_link(options);
+  ServingOptions invited;
+  invited.store = options.store;
+  invited.design = designs->empty() ? kFirstDesign : designs->front().name;
+  invited.role = "own";
+  const auto link = invitation_link(invited);
   if (!link) return tl::unexpected(link.error());
-  return fmt::format("Open this link, which lasts for {}:\n\n  icome info '{}'\n\n", options.lasts, *link);
+  return fmt::format("Open this link, which lasts for {}:\n\n  icome '{}'\n\n", invited.lasts, *link);
 }
 
-base::Result<void> say_where(const collab::DesignServer& server, bool json) {
-  if (json) {
+base::Result<void> say_where(const collab::DesignServer& server, const ServingOptions& options) {
+  if (options.json) {
     nlohmann::ordered_json said{{"listening", place_text(server.endpoint())},
                                 {"fingerprint", server.fingerprint()},
-                                {"store", server.store().string()}};
+                                {"store", server.store()}};
     if (const auto health = server.health_endpoint()) said["health"] = place_text(*health);
     print(said.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   } else {
-    const auto words = first_words(server);
+    const auto words = first_words(options);
     if (!words) return tl::unexpected(words.error());
-    print(fmt::format("Serving {} at {}{}\n{}Ctrl-C ends it.\n", server.store().string(),
+    print(fmt::format("Serving {} at {}{}\n{}Ctrl-C ends it.\n", server.store(),
                       place_text(server.endpoint()),
                       server.fingerprint().empty() ? ", without encryption" : "", *words));
   }
@@ -91,7 +94,7 @@ int run_serve_designs(const ServingOptions& options) {
   if (!settings) return tell(settings.error().message), kFailed;
   auto server = collab::DesignServer::create(*settings);
   if (!server) return tell(server.error().message), kFailed;
-  if (const auto said = say_where(**server, options.json); !said) return tell(said.error().message), kFailed;
+  if (const auto said = say_where(**server, options); !said) return tell(said.error().message), kFailed;
   if (const auto served = (*server)->run(interrupted); !served) return tell(served.error().message), kFailed;
   return 0;
 }

@@ -14,8 +14,9 @@ namespace {
 void add_store_folder(CLI::App& command, ServingOptions& options) {
   command
       .add_option("--store", options.store,
-                  "Folder with the designs (default: icome/store in $XDG_DATA_HOME or ~/.local/share)")
-      ->type_name("FOLDER");
+                  "Folder with the designs (default: icome/store in $XDG_DATA_HOME or ~/.local/share), or a "
+                  "database: postgresql://HOST/DATABASE")
+      ->type_name("STORE");
 }
 
 void add_serve(CLI::App& app, ServingOptions& options) {
@@ -29,6 +30,16 @@ void add_serve(CLI::App& app, ServingOptions& options) {
   serve.add_option("--certificate", options.certificate, "A certificate of your own, with its chain")
       ->type_name("PEM");
   serve.add_option("--key", options.key, "The key of that certificate")->type_name("PEM");
+  serve
+      .add_option("--bus", options.bus,
+                  "NATS, by which several servers of one database pass clients on to each other: "
+                  "nats://HOST:4222")
+      ->type_name("URL");
+  serve
+      .add_option("--files", options.files,
+                  "With a database: folder of this server's own, for its certificate and audit log (default: "
+                  "icome/server beside the usual store)")
+      ->type_name("FOLDER");
   serve.add_flag("--insecure", options.insecure, "Without TLS; only on this machine");
   serve
       .add_option("--health", options.health,

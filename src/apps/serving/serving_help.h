@@ -18,9 +18,15 @@ constexpr const char* kServeNotes =
     "                                              a link stands wherever a file does, in quotes\n"
     "\n"
     "The certificate is the server's own: links carry its fingerprint, so it is safe without an authority.\n"
-    "What was acknowledged is on the disk. Ctrl-C or SIGTERM ends it in good order; the store is served by "
+    "What was acknowledged is on the disk. Ctrl-C or SIGTERM ends it in good order; a folder is served by "
     "one\n"
     "server at a time.\n"
+    "\n"
+    "Any number of servers, with one certificate, before one database; each design is one's at a time, and "
+    "taken\n"
+    "over where that dies:\n"
+    "  icome serve --store postgresql://db/icome --bus nats://bus:4222 --listen 0.0.0.0:4263 "
+    "--certificate c.pem --key k.pem\n"
     "\n"
     "JSON, one line as soon as it listens: listening (HOST:PORT), fingerprint, store (and health).";
 

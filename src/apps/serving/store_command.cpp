@@ -6,9 +6,8 @@
 
 #include "apps/terminal.h"
 #include "collab/server/room.h"
-#include "collab/storage/sqlite_op_log.h"
+#include "collab/storage/store.h"
 #include "collab/storage/store_care.h"
-#include "collab/storage/store_folder.h"
 #include "files/design_files.h"
 
 namespace icome::apps {
@@ -20,13 +19,13 @@ std::string dumped(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-base::Result<int> list_designs(const collab::StoreFolder& folder, bool json) {
-  auto log = collab::SqliteOpLog::open(folder.designs());
+base::Result<int> list_designs(const collab::Store& store, bool json) {
+  const auto log = store.log();
   if (!log) return tl::unexpected(log.error());
-  const auto designs = log->designs();
+  const auto designs = (*log)->designs();
   if (!designs) return tl::unexpected(designs.error());
-  Json report{{"store", folder.path().string()}, {"designs", Json::array()}};
-  std::string text = fmt::format("{}: {} design{}\n", folder.path().string(), designs->size(),
+  Json report{{"store", store.shown()}, {"designs", Json::array()}};
+  std::string text = fmt::format("{}: {} design{}\n", store.shown(), designs->size(),
                                  designs->size() == 1 ? "" : "s");
   for (const collab::DesignRow& row : *designs) {
     report["designs"].push_back({{"name", row.name},
@@ -36,26 +35,6 @@ base::Result<int> list_designs(const collab::StoreFolder& folder, bool json) {
     text += fmt::format("  {:30} {:>12} edits {:>14} bytes\n", row.name, row.sequence, row.bytes);
   }
   return print_answer(json ? dumped(report) : text);
-}
-
-base::Result<int> check_designs(const collab::StoreFolder& folder, bool json) {
-  const auto findings = collab::check_store(folder.designs());
-  if (!findings) return tl::unexpected(findings.error());
-  Json report{{"store", folder.path().string()}, {"findings", *findings}};
-  std::string text;
-  for (const std::string& finding : *findings) text += finding + "\n";
-  if (findings->empty()) text = folder.path().string() + ": all is well.\n";
-  const int printed = print_answer(json ? dumped(report) : text);
-  return findings->empty() ? printed : kFailed;
-}
-
-base::Result<int> restore_designs(const ServingOptions& options, const collab::StoreFolder& folder) {
-  const auto lock = folder.lock();
-  if (!lock) return tl::unexpected(lock.error());
-  const auto former = collab::restore_store(options.file, folder.designs());
-  if (!former) return tl::unexpected(former.error());
-  if (!former->empty()) tell(fmt::format("what was there is kept as {}.", former->string()));
-  return 0;
 }
 
 /// The world of a design as its log has it.
@@ -73,11 +52,45 @@ base::Result<world::World> logged_world(collab::OpLog& log, const std::string& d
   return (*room)->world();
 }
 
-base::Result<int> export_design(const ServingOptions& options, const collab::StoreFolder& folder) {
-  if (const auto able = files::check_can_write(options.file); !able) return tl::unexpected(able.error());
-  auto log = collab::SqliteOpLog::open(folder.designs());
+/// A database looks after its pages by itself: that every design can be read and replayed is looked at.
+base::Result<std::vector<std::string>> check_by_reading(const collab::Store& store) {
+  const auto log = store.log();
   if (!log) return tl::unexpected(log.error());
-  const auto world = logged_world(*log, options.design);
+  const auto designs = (*log)->designs();
+  if (!designs) return tl::unexpected(designs.error());
+  std::vector<std::string> findings;
+  for (const collab::DesignRow& row : *designs)
+    if (const auto world = logged_world(**log, row.name); !world)
+      findings.push_back(fmt::format("{}: {}", row.name, world.error().message));
+  return findings;
+}
+
+base::Result<int> check_designs(const collab::Store& store, bool json) {
+  const auto findings =
+      store.is_database() ? check_by_reading(store) : collab::check_store(store.folder()->designs());
+  if (!findings) return tl::unexpected(findings.error());
+  Json report{{"store", store.shown()}, {"findings", *findings}};
+  std::string text;
+  for (const std::string& finding : *findings) text += finding + "\n";
+  if (findings->empty()) text = store.shown() + ": all is well.\n";
+  const int printed = print_answer(json ? dumped(report) : text);
+  return findings->empty() ? printed : kFailed;
+}
+
+base::Result<int> restore_designs(const ServingOptions& options, const collab::StoreFolder& folder) {
+  const auto lock = folder.lock();
+  if (!lock) return tl::unexpected(lock.error());
+  const auto former = collab::restore_store(options.file, folder.designs());
+  if (!former) return tl::unexpected(former.error());
+  if (!former->empty()) tell(fmt::format("what was there is kept as {}.", former->string()));
+  return 0;
+}
+
+base::Result<int> export_design(const ServingOptions& options, const collab::Store& store) {
+  if (const auto able = files::check_can_write(options.file); !able) return tl::unexpected(able.error());
+  const auto log = store.log();
+  if (!log) return tl::unexpected(log.error());
+  const auto world = logged_world(**log, options.design);
   if (!world) return tl::unexpected(world.error());
   const auto losses = files::write_design(options.file, *world);
   if (!losses) return tl::unexpected(losses.error());
@@ -91,17 +104,18 @@ base::Result<int> done_or_why(const base::Result<void>& done) {
 }
 
 base::Result<int> store_task(const ServingOptions& options) {
-  auto path = options.store.empty() ? collab::StoreFolder::default_path()
-                                    : base::Result<std::filesystem::path>(options.store);
-  if (!path) return tl::unexpected(path.error());
   const bool restores = options.task == "store restore";
-  const auto folder = restores ? collab::StoreFolder::make(*path) : collab::StoreFolder::open(*path);
-  if (!folder) return tl::unexpected(folder.error());
-  if (restores) return restore_designs(options, *folder);
-  if (options.task == "store list") return list_designs(*folder, options.json);
-  if (options.task == "store check") return check_designs(*folder, options.json);
-  if (options.task == "store export") return export_design(options, *folder);
-  return done_or_why(collab::backup_store(folder->designs(), options.file, options.force));
+  const auto store = restores ? collab::Store::make(options.store) : collab::Store::open(options.store);
+  if (!store) return tl::unexpected(store.error());
+  if (options.task == "store list") return list_designs(*store, options.json);
+  if (options.task == "store check") return check_designs(*store, options.json);
+  if (options.task == "store export") return export_design(options, *store);
+  if (store->is_database())
+    return base::fail(store->shown() +
+                      ": a database is backed up and restored by its own programs, pg_dump and pg_restore "
+                      "(--schema=icome).");
+  if (restores) return restore_designs(options, *store->folder());
+  return done_or_why(collab::backup_store(store->folder()->designs(), options.file, options.force));
 }
 
 }  // namespace

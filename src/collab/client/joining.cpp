@@ -1,12 +1,12 @@
 #include "collab/client/joining.h"
 
 #include <fmt/format.h>
-#include <openssl/rand.h>
 
 #include <array>
 #include <cstdlib>
 
 #include "base/version.h"
+#include "collab/storage/random_bytes.h"
 
 namespace icome::collab {
 namespace {
@@ -24,12 +24,9 @@ std::string person_of_this_machine() {
 }  // namespace
 
 base::Result<std::string> make_client_key() {
-  std::array<unsigned char, 16> bytes{};
-  if (RAND_bytes(bytes.data(), int(bytes.size())) != 1)
-    return base::fail("The system gives no random numbers for a key of this client.");
-  std::string text;
-  for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
-  return text;
+  const auto bytes = random_bytes(16);
+  if (!bytes) return bytes;
+  return hex_text(*bytes);
 }
 
 base::Result<ClientIdentity> new_identity(const std::string& name) {

@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <utility>
 
 #include "base/clock.h"
 #include "collab/link/certificate.h"
-#include "collab/storage/sqlite_op_log.h"
-#include "collab/storage/store_folder.h"
+#include "collab/storage/design_state.h"
+#include "collab/storage/random_bytes.h"
 
 namespace icome::collab {
 namespace {
@@ -21,6 +22,11 @@ constexpr std::int64_t kBusyPause = 10;        // ms between two frames to a cli
 constexpr const char* kEmbeddedHolder = "the server of this folder";
 
 std::int64_t steady_milliseconds() { return base::steady_nanoseconds() / 1'000'000; }
+
+/// Where a server listens on the bus; nobody's is where all do.
+std::string subject_of(const std::string& server) {
+  return server.empty() ? std::string("icome.all") : "icome.server." + server;
+}
 
 /// The text as JSON writes it.
 std::string quoted_json(const std::string& text) {
@@ -37,6 +43,30 @@ std::string quoted_json(const std::string& text) {
     }
   }
   return result + '"';
+}
+
+constexpr std::int64_t kDatabaseLease = 4'000;  // ms: so soon another server takes over where one has died
+
+/// The folder for the files of a server of this store.
+base::Result<StoreFolder> files_of(const ServeSettings& settings, const Store& store) {
+  if (store.folder() != nullptr) {
+    if (!settings.files.empty())
+      return base::fail("--files goes with a database: the files of a store in a folder are there.");
+    return *store.folder();
+  }
+  if (!settings.files.empty()) return StoreFolder::make(settings.files);
+  const auto usual = StoreFolder::default_path();
+  if (!usual) return tl::unexpected(usual.error());
+  return StoreFolder::make(usual->parent_path() / "server");
+}
+
+/// Names this server in leases. The lock of a folder proves that no other server has the designs in it; before a
+/// database each run has a name of its own.
+base::Result<std::string> holder_of(const Store& store) {
+  if (!store.is_database()) return kEmbeddedHolder;
+  const auto bytes = random_bytes(16);
+  if (!bytes) return bytes;
+  return hex_text(*bytes);
 }
 
 struct ServedFiles {
@@ -60,42 +90,53 @@ base::Result<ServedFiles> certificate_files(const ServeSettings& settings, const
 }  // namespace
 
 base::Result<std::unique_ptr<DesignServer>> DesignServer::create(const ServeSettings& settings) {
-  auto path = settings.store.empty() ? StoreFolder::default_path() : settings.store;
-  if (!path) return tl::unexpected(path.error());
-  const auto folder = StoreFolder::make(*path);
-  if (!folder) return tl::unexpected(folder.error());
-  auto lock = folder->lock();
-  if (!lock) return tl::unexpected(lock.error());
-  auto log = SqliteOpLog::open(folder->designs());
-  if (!log) return tl::unexpected(log.error());
-  auto signer = TokenSigner::open(folder->token_key());
-  if (!signer) return tl::unexpected(signer.error());
-  const auto files = certificate_files(settings, *folder);
+  const auto store = Store::make(settings.store);
+  if (!store) return tl::unexpected(store.error());
+  if (!settings.bus.empty() && !store->is_database())
+    return base::fail(store->shown() +
+                      ": a folder is served by one server, which needs no bus: --bus goes with a database.");
+  const auto files = files_of(settings, *store);
   if (!files) return tl::unexpected(files.error());
+  auto lock = files->lock();
+  if (!lock) return tl::unexpected(lock.error());
+  auto log = store->log();
+  if (!log) return tl::unexpected(log.error());
+  const auto signer = store->signer();
+  if (!signer) return tl::unexpected(signer.error());
+  const auto certificate = certificate_files(settings, *files);
+  if (!certificate) return tl::unexpected(certificate.error());
 
   ServeSettings complete = settings;
-  complete.certificate = files->certificate;
-  complete.key = files->key;
-  // The lock of the folder proves that no other server has the designs.
-  if (complete.hub.holder.empty()) complete.hub.holder = kEmbeddedHolder;
+  complete.certificate = certificate->certificate;
+  complete.key = certificate->key;
+  if (complete.hub.holder.empty()) {
+    auto holder = holder_of(*store);
+    if (!holder) return tl::unexpected(holder.error());
+    complete.hub.holder = std::move(*holder);
+  }
+  if (store->is_database()) complete.hub.design_lease = std::min(complete.hub.design_lease, kDatabaseLease);
   std::unique_ptr<DesignServer> server(
-      new DesignServer(std::move(*lock), std::move(*signer), complete.hub, folder->audit()));
-  server->folder_ = folder->path();
-  if (const auto started = server->start(complete, std::make_unique<SqliteOpLog>(std::move(*log))); !started)
+      new DesignServer(*files, std::move(*lock), *signer, complete.hub, store->shown()));
+  if (const auto started = server->start(complete, std::move(*log)); !started)
     return tl::unexpected(started.error());
   if (const auto noted =
-          folder->write_address({server->endpoint_.host, server->endpoint_.port, server->fingerprint_});
+          store->write_address({server->endpoint_.host, server->endpoint_.port, server->fingerprint_});
       !noted)
     return tl::unexpected(noted.error());
   return server;
 }
 
-DesignServer::DesignServer(io::OpenFile lock, TokenSigner signer, HubSettings settings,
-                           const std::filesystem::path& audit)
-    : lock_(std::move(lock)),
-      hub_(std::move(settings), std::move(signer), factory_,
-           [this](const AuditRow& row) { write_audit(row); }),
-      audit_(std::fopen(audit.c_str(), "ae")),
+DesignServer::DesignServer(const StoreFolder& files, io::OpenFile lock, const TokenSigner& signer,
+                           HubSettings settings, std::string shown_store)
+    : folder_(files.path()),
+      shown_store_(std::move(shown_store)),
+      lock_(std::move(lock)),
+      hub_(settings, signer, factory_, [this](const AuditRow& row) { write_audit(row); },
+           [this](LinkId link, const std::string& server, std::string_view hello) {
+             return pass_on(link, server, hello);
+           }),
+      relays_({settings.holder, signer.derived_key("bus")}, *this),
+      audit_(std::fopen(files.audit().c_str(), "ae")),
       started_(steady_milliseconds()) {}
 
 DesignServer::~DesignServer() {
@@ -134,7 +175,7 @@ base::Result<void> DesignServer::start(const ServeSettings& settings, std::uniqu
       stir();
     });
   });
-  return {};
+  return settings.bus.empty() ? base::Result<void>() : join_bus(settings.bus);
 }
 
 base::Result<void> DesignServer::run(const std::function<bool()>& ends) {
@@ -154,21 +195,82 @@ void DesignServer::opened(LinkId link, const Peer& peer) {
 }
 
 void DesignServer::received(LinkId link, std::string_view frame) {
+  if (relays_.passes_on(link)) return relays_.from_client(link, frame);
   hub_.received(link, frame, steady_milliseconds(), wall_milliseconds());
   stir();
 }
 
 void DesignServer::sent(LinkId link) {
+  if (relays_.passes_on(link)) return relays_.client_sent(link);
   sending_.erase(link);
   flush(link);
 }
 
 void DesignServer::closed(LinkId link, const std::string&) {
+  relays_.client_closed(link);
+  forget(link);
+}
+
+void DesignServer::forget(LinkId link) {
   links_.erase(link);
   sending_.erase(link);
   held_back_.erase(link);
   hub_.closed(link, steady_milliseconds());
   stir();
+}
+
+// ---- other servers
+
+base::Result<void> DesignServer::join_bus(const std::string& address) {
+  auto bus = Bus::connect(address, [this](std::string bytes) {
+    loop_->post([this, bytes = std::move(bytes)] { relays_.heard(bytes, steady_milliseconds()); });
+  });
+  if (!bus) return tl::unexpected(bus.error());
+  bus_ = std::move(*bus);
+  for (const std::string& subject : {subject_of(relays_.id()), subject_of({})})
+    if (const auto listens = bus_->listen(subject); !listens) return listens;
+  return {};
+}
+
+void DesignServer::publish(const std::string& server, std::string bytes) {
+  if (bus_) bus_->publish(subject_of(server), bytes);
+}
+
+/// A client whose design another server has.
+bool DesignServer::pass_on(LinkId link, const std::string& server, std::string_view hello) {
+  if (!bus_ || Relays::is_guest(link)) return false;
+  return relays_.pass_on(link, server, hello, steady_milliseconds());
+}
+
+void DesignServer::guest_opened(LinkId guest, const std::string& address) {
+  links_[guest] = 0;
+  hub_.opened(guest, address, steady_milliseconds());
+}
+
+void DesignServer::guest_received(LinkId guest, std::string_view frame) {
+  hub_.received(guest, frame, steady_milliseconds(), wall_milliseconds());
+  stir();
+}
+
+void DesignServer::guest_sent(LinkId guest) {
+  sending_.erase(guest);
+  flush(guest);
+}
+
+void DesignServer::guest_closed(LinkId guest) { forget(guest); }
+
+void DesignServer::client_frame(LinkId client, SharedBytes frame) { loop_->send(client, std::move(frame)); }
+
+void DesignServer::client_ends(LinkId client, const std::string& why) { loop_->close(client, why); }
+
+void DesignServer::send(LinkId link, SharedBytes frame) {
+  Relays::is_guest(link) ? relays_.to_guest(link, *frame) : loop_->send(link, std::move(frame));
+}
+
+void DesignServer::close(LinkId link, const std::string& why) {
+  if (!Relays::is_guest(link)) return loop_->close(link, why);
+  relays_.end_guest(link, why);
+  loop_->post([this, link] { forget(link); });
 }
 
 /// What has happened is followed by one look at who has to hear of it, behind all else that has come in.
@@ -202,9 +304,9 @@ void DesignServer::flush(LinkId link) {
     found->second = now;
     ++busy_frames_;
     sending_.insert(link);
-    loop_->send(link, std::move(frame));
+    send(link, std::move(frame));
   } else if (const auto why = hub_.parting(link)) {
-    loop_->close(link, *why);
+    close(link, *why);
   }
 }
 
@@ -227,6 +329,7 @@ void DesignServer::tick() {
     hub_.stop(now);
   }
   hub_.tick(now, wall_milliseconds());
+  if (bus_) relays_.tick(now);
   stir();
   if (stops_ && ((hub_.is_done() && !log_works_) || now > stop_until_)) return loop_->stop();
   loop_->after(std::chrono::milliseconds(kTick), [this] { tick(); });

@@ -9,16 +9,23 @@
 #include <unordered_map>
 
 #include "base/result.h"
+#include "collab/bus/bus.h"
 #include "collab/link/link_loop.h"
 #include "collab/server/hub.h"
 #include "collab/server/log_thread.h"
+#include "collab/server/relays.h"
+#include "collab/storage/store.h"
 #include "io/open_file.h"
 
 namespace icome::collab {
 
 /// How a server serves.
 struct ServeSettings {
-  std::filesystem::path store = {};  // a folder; empty: StoreFolder::default_path()
+  std::string store = {};  // as Store::make() reads it
+  /// Where a server of a database keeps files of its own: certificate, audit log; empty: the usual folder. The
+  /// files of a store in a folder are there.
+  std::filesystem::path files = {};
+  std::string bus = {};  // "nats://HOST:PORT", by which servers before one database pass clients on; empty: none
   Endpoint listen = {};
   std::filesystem::path certificate =
       {};  // PEM, with `key`; empty: the store's own, made where there is none
@@ -30,9 +37,10 @@ struct ServeSettings {
   HubSettings hub = {};
 };
 
-/// A server of the designs in a store's folder, which it has for itself: sockets, threads and clocks around a
-/// Hub. Owns everything. run() is the only thread that works with it, but for the log's own.
-class DesignServer final : private LinkEvents {
+/// A server of the designs in a store: sockets, threads and clocks around a Hub. It has a folder for itself; a
+/// database it shares with other servers, each design being one's at a time, and passes clients on to the one
+/// that has their design. Owns everything. run() is the only thread that works with it, but for the log's own.
+class DesignServer final : private LinkEvents, private RelayEvents {
  public:
   /// Listens when it returns. Fails with a sentence that names the folder, the file or the address.
   static base::Result<std::unique_ptr<DesignServer>> create(const ServeSettings& settings);
@@ -43,7 +51,8 @@ class DesignServer final : private LinkEvents {
   std::optional<Endpoint> health_endpoint() const { return health_; }
   /// Of its certificate; empty without TLS.
   const std::string& fingerprint() const { return fingerprint_; }
-  const std::filesystem::path& store() const { return folder_; }
+  /// For people.
+  const std::string& store() const { return shown_store_; }
 
   /// Serves until `ends` (asked some times a second) says so; then tells the clients, and saves what they
   /// have sent. Fails where the folder of the store is taken away meanwhile, as nothing would be kept any
@@ -51,14 +60,28 @@ class DesignServer final : private LinkEvents {
   base::Result<void> run(const std::function<bool()>& ends);
 
  private:
-  DesignServer(io::OpenFile lock, TokenSigner signer, HubSettings settings,
-               const std::filesystem::path& audit);
+  DesignServer(const StoreFolder& files, io::OpenFile lock, const TokenSigner& signer, HubSettings settings,
+               std::string shown_store);
   base::Result<void> start(const ServeSettings& settings, std::unique_ptr<OpLog> log);
   void opened(LinkId link, const Peer& peer) override;
   void received(LinkId link, std::string_view frame) override;
   void sent(LinkId link) override;
   void closed(LinkId link, const std::string& why) override;
 
+  // Clients of other servers, whose designs are here, and the other way round.
+  void publish(const std::string& server, std::string bytes) override;
+  void guest_opened(LinkId guest, const std::string& address) override;
+  void guest_received(LinkId guest, std::string_view frame) override;
+  void guest_sent(LinkId guest) override;
+  void guest_closed(LinkId guest) override;
+  void client_frame(LinkId client, SharedBytes frame) override;
+  void client_ends(LinkId client, const std::string& why) override;
+
+  base::Result<void> join_bus(const std::string& address);
+  bool pass_on(LinkId link, const std::string& server, std::string_view hello);
+  void send(LinkId link, SharedBytes frame);
+  void close(LinkId link, const std::string& why);
+  void forget(LinkId link);
   void stir();
   void flush();
   void flush(LinkId link);
@@ -67,11 +90,13 @@ class DesignServer final : private LinkEvents {
   HttpAnswer answer(std::string_view path) const;
   void write_audit(const AuditRow& row);
 
-  std::filesystem::path folder_;
+  std::filesystem::path folder_;  // of its files
+  std::string shown_store_;
   io::OpenFile lock_;
   world::GeometryFactory factory_;
   std::unique_ptr<LinkLoop> loop_;
   Hub hub_;
+  Relays relays_;
   std::unique_ptr<LogThread> log_;
   std::FILE* audit_ = nullptr;
   Endpoint endpoint_;
@@ -89,6 +114,7 @@ class DesignServer final : private LinkEvents {
   std::set<LinkId> held_back_;                      // to be looked at when their pause is over
   std::int64_t busy_frames_ = 0;                    // sent in this tenth of a second
   bool is_busy_ = false;
+  std::unique_ptr<Bus> bus_;  // null: no others are known; last, as its thread posts to the loop
 };
 
 }  // namespace icome::collab

@@ -30,6 +30,7 @@ struct Opening {
   std::uint64_t logged_bytes = 0;
   std::string why;
   Parting code = Parting::Other;
+  std::string holder;  // another server has the design
 };
 
 Opening open_from(OpLog& log, const std::string& design, const HubSettings& settings,
@@ -47,7 +48,11 @@ Opening open_from(OpLog& log, const std::string& design, const HubSettings& sett
   // fences must not be given again.
   (void)log.release(design, settings.holder);
   const auto lease = log.lease(design, settings.holder, settings.design_lease);
-  if (!lease) return failed(lease.error(), Parting::Other);
+  if (!lease) {
+    const auto now = log.find(design);
+    if (now && *now && (*now)->holder != settings.holder) opening.holder = (*now)->holder;
+    return failed(lease.error(), opening.holder.empty() ? Parting::Other : Parting::ServerStops);
+  }
   const auto start = read_start(log, **found, lease->fence);
   if (!start) return failed(start.error(), Parting::Other);
   auto room = Room::open(*start, settings.room, factory);
@@ -61,11 +66,13 @@ Opening open_from(OpLog& log, const std::string& design, const HubSettings& sett
 
 }  // namespace
 
-Hub::Hub(HubSettings settings, TokenSigner signer, const world::GeometryFactory& factory, Audit audit)
+Hub::Hub(HubSettings settings, TokenSigner signer, const world::GeometryFactory& factory, Audit audit,
+         PassOn pass_on)
     : settings_(std::move(settings)),
       signer_(std::move(signer)),
       factory_(factory),
-      audit_(std::move(audit)) {
+      audit_(std::move(audit)),
+      pass_on_(std::move(pass_on)) {
   ask_for_revoked();  // before anybody comes in
 }
 
@@ -193,7 +200,7 @@ Hub::OpenDesignPointer Hub::open(const std::string& name) {
   work_.push_back({[this, design](OpLog& log) {
     const auto opening = std::make_shared<Opening>(open_from(log, design->name, settings_, factory_));
     return [this, design, opening] {
-      if (!opening->room) return give_up(design, opening->why, opening->code);
+      if (!opening->room) return give_up(design, opening->why, opening->code, opening->holder);
       design->room = std::move(opening->room);
       design->fence = opening->fence;
       design->snapshot_sequence = opening->snapshot_sequence;
@@ -244,16 +251,31 @@ void Hub::join(const OpenDesignPointer& design, const Joining& joining, const Au
 }
 
 /// Nobody can work on the design here any more; those who come again have it opened anew.
-void Hub::give_up(const OpenDesignPointer& design, const std::string& why, Parting code) {
+void Hub::give_up(const OpenDesignPointer& design, const std::string& why, Parting code,
+                  const std::string& holder) {
   const auto current = rooms_.find(design->name);
   if (current != rooms_.end() && current->second == design) rooms_.erase(current);
   counters_.rooms = rooms_.size();
   for (const Joining& joining : std::exchange(design->joining, {}))
-    if (const auto link = links_.find(joining.link); link != links_.end())
+    if (const auto link = links_.find(joining.link); link != links_.end() && !has_passed_on(joining, holder))
       refuse(joining.link, link->second, why, code);
   if (!design->room) return;
   design->room->end(why, code);
   stir(design);
+}
+
+/// Is the connection another server's from now on?
+bool Hub::has_passed_on(const Joining& joining, const std::string& holder) {
+  if (holder.empty() || !pass_on_) return false;
+  std::string frame;
+  add_to_frame(frame, to_bytes(ClientMessage(joining.hello)));
+  const auto found = links_.find(joining.link);
+  if (found->second.parting || !pass_on_(joining.link, holder, frame)) return false;
+  note("passed on", found->second, holder);
+  links_.erase(joining.link);
+  stirred_.erase(joining.link);
+  counters_.links = links_.size();
+  return true;
 }
 
 void Hub::stir(const OpenDesignPointer& design) {

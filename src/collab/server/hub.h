@@ -59,8 +59,13 @@ class Hub {
  public:
   using Audit = std::function<void(const AuditRow&)>;
 
+  /// Another server (HubSettings::holder) has the design that a client wants: takes the connection, with the
+  /// frame of its hello, out of the hub's hands, or gives false, and then the client is refused.
+  using PassOn = std::function<bool(LinkId link, const std::string& holder, std::string_view hello)>;
+
   /// `factory` outlives the hub.
-  Hub(HubSettings settings, TokenSigner signer, const world::GeometryFactory& factory, Audit audit = {});
+  Hub(HubSettings settings, TokenSigner signer, const world::GeometryFactory& factory, Audit audit = {},
+      PassOn pass_on = {});
 
   void opened(LinkId link, const std::string& address, std::int64_t now);
   void received(LinkId link, std::string_view frame, std::int64_t now, std::int64_t at);
@@ -130,7 +135,9 @@ class Hub {
   void ask_to_join(const OpenDesignPointer& design, const Joining& joining);
   void join(const OpenDesignPointer& design, const Joining& joining, const AuthorRow& author);
   OpenDesignPointer open(const std::string& name);
-  void give_up(const OpenDesignPointer& design, const std::string& why, Parting code);
+  void give_up(const OpenDesignPointer& design, const std::string& why, Parting code,
+               const std::string& holder = {});
+  bool has_passed_on(const Joining& joining, const std::string& holder);
   void stir(const OpenDesignPointer& design);
   bool spends_too_much(Link& link) const;
   std::optional<std::string> end_of_invitation(const Link& link) const;
@@ -150,6 +157,7 @@ class Hub {
   TokenSigner signer_;
   const world::GeometryFactory& factory_;
   Audit audit_;
+  PassOn pass_on_;
   std::map<LinkId, Link> links_;
   std::map<std::string, OpenDesignPointer> rooms_;  // by the design's name
   std::set<LinkId> stirred_;

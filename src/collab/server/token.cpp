@@ -4,13 +4,13 @@
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
 #include <openssl/hmac.h>
-#include <openssl/rand.h>
 
 #include <array>
 #include <optional>
 
 #include "base/shown_text.h"
 #include "collab/storage/private_file.h"
+#include "collab/storage/random_bytes.h"
 #include "io/file_bytes.h"
 
 namespace icome::collab {
@@ -27,7 +27,6 @@ constexpr std::size_t kTokenBytes = kPayloadBytes + kMacBytes;
 constexpr std::size_t kTokenCharacters = kTokenBytes / 3 * 4;
 static_assert(kTokenBytes % 3 == 0);
 
-constexpr std::size_t kKeyBytes = 32;
 constexpr std::int64_t kLatestExpiry = (std::int64_t{1} << (8 * kExpiryBytes)) - 1;
 
 constexpr std::string_view kTokenAlphabet =
@@ -64,16 +63,6 @@ std::optional<std::string> token_bytes(std::string_view text) {
   return bytes;
 }
 
-std::string hex_text(std::string_view bytes) {
-  std::string text;
-  for (const char it : bytes) {
-    const unsigned byte = static_cast<unsigned char>(it);
-    text += kHexDigits[byte >> 4U];
-    text += kHexDigits[byte & 15U];
-  }
-  return text;
-}
-
 /// Nothing for what is no id of an invitation.
 std::optional<std::string> id_bytes(std::string_view text) {
   if (text.size() != 2 * kIdBytes) return std::nullopt;
@@ -84,12 +73,6 @@ std::optional<std::string> id_bytes(std::string_view text) {
     bytes += char(high << 4U | low);
   }
   return bytes;
-}
-
-base::Result<std::string> random_bytes(std::size_t count) {
-  std::string bytes(count, '\0');
-  if (RAND_bytes(reinterpret_cast<unsigned char*>(bytes.data()), int(count)) == 1) return bytes;
-  return base::fail("The system gives no random numbers, so nothing can be kept secret. Try again later.");
 }
 
 /// The signature of a payload for a design; nothing where OpenSSL fails.
@@ -135,6 +118,10 @@ base::Result<TokenSigner> TokenSigner::open(const std::filesystem::path& key) {
                       ": is not the key of a store, or cannot be read. Restore it, or remove it: all links "
                       "that were given out end then.");
   return TokenSigner(std::move(*bytes));
+}
+
+std::string TokenSigner::derived_key(std::string_view purpose) const {
+  return token_mac(key_, "key for", purpose).value_or(std::string());
 }
 
 base::Result<std::string> TokenSigner::sign(const Invitation& invitation) const {

@@ -25,8 +25,14 @@ base::Result<std::string> make_invitation_id();
 /// Signs and checks tokens (HMAC-SHA256) with a key that only this store has.
 class TokenSigner {
  public:
+  static constexpr std::size_t kKeyBytes = 32;
+  /// With a key of kKeyBytes, which nobody can guess.
+  explicit TokenSigner(std::string key) : key_(std::move(key)) {}
   /// Reads the key from a file, which only its owner may read; makes one where there is none.
   static base::Result<TokenSigner> open(const std::filesystem::path& key);
+
+  /// A key for another purpose, which only who has this one can know.
+  std::string derived_key(std::string_view purpose) const;
 
   /// A token: 52 letters, digits, '-' and '_'. The name of the design is not in it, but signed with it. Fails
   /// for an invitation whose id or time is not as said there.
@@ -37,7 +43,6 @@ class TokenSigner {
   base::Result<Invitation> check(std::string_view token, std::string_view design, std::int64_t now) const;
 
  private:
-  explicit TokenSigner(std::string key) : key_(std::move(key)) {}
   std::string key_;  // 32 random bytes
 };
 

@@ -102,11 +102,19 @@ constexpr PostgresStatement kAllRevoked{"all_revoked",
 constexpr PostgresStatement kLastRevoked{"last_revoked",
                                          "SELECT coalesce(max(number), 0) FROM icome.revoked"};
 
+constexpr PostgresStatement kInsertNote{
+    "insert_note", "INSERT INTO icome.notes (name, bytes) VALUES ($1, $2) ON CONFLICT (name) DO NOTHING"};
+constexpr PostgresStatement kWriteNote{
+    "write_note",
+    "INSERT INTO icome.notes (name, bytes) VALUES ($1, $2) ON CONFLICT (name) DO UPDATE SET bytes = $2"};
+constexpr PostgresStatement kReadNote{"read_note", "SELECT bytes FROM icome.notes WHERE name = $1"};
+
 constexpr PostgresStatement kAll[] = {
     kAllDesigns,      kFindDesign,     kLockDesign, kLockDesigns, kInsertDesign, kUpdateLease,
     kUpdateSequences, kInsertEdits,    kReadEdits,  kBytesBehind, kForgetEdits,  kReadSnapshot,
     kWriteSnapshot,   kUpdateSnapshot, kTakeTime,   kFindAuthor,  kInsertAuthor, kCountAuthors,
-    kLockRevoked,     kInsertRevoked,  kAllRevoked, kLastRevoked};
+    kLockRevoked,     kInsertRevoked,  kAllRevoked, kLastRevoked, kInsertNote,   kWriteNote,
+    kReadNote};
 
 }  // namespace statements
 
@@ -502,6 +510,28 @@ base::Result<std::uint64_t> PostgresOpLog::revoked_version() {
     const auto rows = parts_->connection.run(statements::kLastRevoked);
     if (!rows) return tl::unexpected(rows.error());
     return rows->natural(0, 0);
+  });
+}
+
+base::Result<std::string> PostgresOpLog::note_once(const std::string& name, const std::string& bytes) {
+  return parts_->connection.transact(kBeginChange, [&]() -> base::Result<std::string> {
+    parts_->connection.queue(statements::kInsertNote, name, bytes);
+    const auto rows = parts_->connection.run(statements::kReadNote, name);
+    if (!rows) return tl::unexpected(rows.error());
+    return rows->count() == 1 ? rows->bytes(0, 0) : std::string();
+  });
+}
+
+base::Result<void> PostgresOpLog::write_note(const std::string& name, const std::string& bytes) {
+  return parts_->connection.connected(
+      [&] { return without_rows(parts_->connection.run(statements::kWriteNote, name, bytes)); });
+}
+
+base::Result<std::optional<std::string>> PostgresOpLog::note(const std::string& name) {
+  return parts_->connection.connected([&]() -> base::Result<std::optional<std::string>> {
+    const auto rows = parts_->connection.run(statements::kReadNote, name);
+    if (!rows) return tl::unexpected(rows.error());
+    return rows->count() == 1 ? std::optional(rows->bytes(0, 0)) : std::nullopt;
   });
 }
 

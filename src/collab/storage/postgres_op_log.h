@@ -40,6 +40,12 @@ class PostgresOpLog final : public OpLog {
   base::Result<std::vector<std::string>> revoked() override;
   base::Result<std::uint64_t> revoked_version() override;
 
+  // Notes of the store, such as where it is served, by name; bytes.
+  /// The note that is there; or these bytes, which are noted from now on.
+  base::Result<std::string> note_once(const std::string& name, const std::string& bytes);
+  base::Result<void> write_note(const std::string& name, const std::string& bytes);
+  base::Result<std::optional<std::string>> note(const std::string& name);
+
  private:
   struct Parts;  // the connection and what is done with it
   explicit PostgresOpLog(std::unique_ptr<Parts> parts);

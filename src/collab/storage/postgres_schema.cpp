@@ -54,6 +54,10 @@ constexpr const char* kMakeSchemaTables[] = {
       number bigint PRIMARY KEY,
       invitation text COLLATE "C" NOT NULL UNIQUE
     ))",
+    R"(CREATE TABLE icome.notes (
+      name text COLLATE "C" PRIMARY KEY,
+      bytes bytea NOT NULL
+    ))",
     // Leases are judged by the clock of the database, which all servers share: ms since 1970.
     R"(CREATE FUNCTION icome.clock_milliseconds() RETURNS bigint LANGUAGE sql VOLATILE AS
       'SELECT floor(extract(epoch FROM clock_timestamp()) * 1000)::bigint')",

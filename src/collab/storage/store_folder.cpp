@@ -41,16 +41,6 @@ std::optional<std::string_view> take_line(std::string_view& text, std::string_vi
   return value;
 }
 
-std::optional<ServedAddress> parse_address(std::string_view text) {
-  const auto host = take_line(text, kHostLine);
-  const auto port = take_line(text, kPortLine);
-  const auto fingerprint = take_line(text, kFingerprintLine);
-  if (!host || !port || !fingerprint || !text.empty()) return std::nullopt;
-  const auto number = base::parse_number<std::uint16_t>(*port);
-  if (!number) return std::nullopt;
-  ServedAddress address{std::string(*host), *number, std::string(*fingerprint)};
-  return is_address(address) ? std::optional(std::move(address)) : std::nullopt;
-}
 
 /// Others who may write to the folder could put their own key in the place of the one that signs invitations.
 base::Result<void> demand_own_folder(const std::filesystem::path& path) {
@@ -113,14 +103,31 @@ base::Result<io::OpenFile> StoreFolder::lock() const {
                     ": a server serves this store already. End it first, or name another store.");
 }
 
-base::Result<void> StoreFolder::write_address(const ServedAddress& address) const {
+std::optional<ServedAddress> address_in(std::string_view text) {
+  const auto host = take_line(text, kHostLine);
+  const auto port = take_line(text, kPortLine);
+  const auto fingerprint = take_line(text, kFingerprintLine);
+  if (!host || !port || !fingerprint || !text.empty()) return std::nullopt;
+  const auto number = base::parse_number<std::uint16_t>(*port);
+  if (!number) return std::nullopt;
+  ServedAddress address{std::string(*host), *number, std::string(*fingerprint)};
+  return is_address(address) ? std::optional(std::move(address)) : std::nullopt;
+}
+
+base::Result<std::string> address_note(const ServedAddress& address) {
   if (!is_address(address))
     return base::fail(
         fmt::format("{}:{} is no address that a store could be served at.", address.host, address.port));
+  return fmt::format("{}{}\n{}{}\n{}{}\n", kHostLine, address.host, kPortLine, address.port, kFingerprintLine,
+                     address.fingerprint);
+}
+
+base::Result<void> StoreFolder::write_address(const ServedAddress& address) const {
+  const auto note = address_note(address);
+  if (!note) return tl::unexpected(note.error());
   auto file = io::NewFile::create(path_ / "address");
   if (!file) return tl::unexpected(file.error());
-  file->write(fmt::format("{}{}\n{}{}\n{}{}\n", kHostLine, address.host, kPortLine, address.port,
-                          kFingerprintLine, address.fingerprint));
+  file->write(*note);
   return file->finish();
 }
 
@@ -130,7 +137,7 @@ base::Result<std::optional<ServedAddress>> StoreFolder::address() const {
   if (!std::filesystem::exists(path, error)) return std::nullopt;
   const auto text = io::read_bytes(path, kLongestAddress);
   if (!text) return tl::unexpected(text.error());
-  auto address = parse_address(*text);
+  auto address = address_in(*text);
   if (address) return address;
   return base::fail(path.string() +
                     ": does not say where the store is served. Remove it, and serve the store again.");

@@ -18,6 +18,11 @@ struct ServedAddress {
   bool operator==(const ServedAddress&) const = default;
 };
 
+/// An address as a few lines of text. Fails for one that nothing could be served at.
+base::Result<std::string> address_note(const ServedAddress& address);
+/// The address that such lines hold; nothing where they hold none.
+std::optional<ServedAddress> address_in(std::string_view note);
+
 /// The folder of a store: its database, what proves who serves it, and the secret that signs invitations. A
 /// value that knows the paths; the files in it belong to whom it gives them to.
 class StoreFolder {

@@ -33,7 +33,7 @@ class ServedDesign {
   /// At the same endpoint as before.
   void start() {
     ServeSettings settings;
-    settings.store = folder_;
+    settings.store = folder_.string();
     settings.listen = endpoint_;
     auto server = DesignServer::create(settings);
     ASSERT_TRUE(server) << server.error().message;

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "base/clock.h"
-#include "collab/storage/open_op_log.h"
+#include "collab/storage/store.h"
 #include "collab/storage/sample_log.h"
 #include "collab/storage/shared_postgres.h"
 
@@ -408,10 +408,24 @@ TEST_F(PostgresOpLogTest, RefusesADatabaseThatKeepsNoUnicode) {
 TEST_F(PostgresOpLogTest, IsWhatTheAddressOfADatabaseMeans) {
   EXPECT_TRUE(is_database_address("postgres://host/db"));
   EXPECT_FALSE(is_database_address("postgresql"));
-  good(good(open_op_log(address_))->create("a"));
+  good(good(good(Store::open(address_)).log())->create("a"));
   EXPECT_TRUE(good(opened().find("a")));
   const std::string short_form = "postgres" + address_.substr(address_.find("://"));
-  EXPECT_TRUE(good(good(open_op_log(short_form))->find("a")));
+  const Store store = good(Store::make(short_form));
+  EXPECT_TRUE(good(good(store.log())->find("a")));
+  EXPECT_EQ(good(store.address()), std::nullopt);
+  const ServedAddress served{"10.0.0.7", 4263, ""};
+  good(store.write_address(served));
+  EXPECT_EQ(good(good(Store::open(address_)).address()), served);
+  const Invitation invitation{good(make_invitation_id()), "a", Role::Edit, 1'000};
+  const std::string token = good(good(store.signer()).sign(invitation));
+  EXPECT_EQ(good(good(good(Store::open(address_)).signer()).check(token, "a", 0)), invitation)
+      << "all servers of a store have one secret";
+}
+
+TEST(Store, IsShownWithoutItsSecrets) {
+  EXPECT_EQ(good(Store::open("postgresql://ann:p@ss@db:5432/icome?password=x")).shown(), "postgresql://db:5432/icome");
+  EXPECT_EQ(good(Store::open("postgres:///icome?host=/tmp")).shown(), "postgres:///icome");
 }
 
 }  // namespace
