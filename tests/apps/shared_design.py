@@ -22,7 +22,7 @@ class Server:
     """`icome serve` on a free port, for as long as a `with` lasts; may be killed and started again at the same port."""
 
     def __init__(self, store, *arguments, listen="127.0.0.1:0", program=PROGRAM):
-        self.store = pathlib.Path(store)
+        self.store = store if "://" in str(store) else pathlib.Path(store)
         self.arguments = arguments
         self.listen = listen
         self.program = program

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/clock.h"
 
 namespace icome::collab {
 namespace {
 
 constexpr std::chrono::milliseconds kClientTick{50};
+/// A server that stops, or has not taken a design over yet, says so: it is waited for at least so long.
+constexpr std::chrono::milliseconds kTakeOver{12'000};
 
 std::int64_t milliseconds_now() { return base::steady_nanoseconds() / 1'000'000; }
 
@@ -82,7 +86,9 @@ base::Result<bool> Connection::work_until(const std::function<bool()>& done,
     if (done()) return true;
     if (talk_.state() == ConversationState::Ended) return error(talk_.why_ended());
     if (stops()) return false;
-    if (talk_.state() == ConversationState::Away && now - last_live_ > patience.count())
+    const bool is_taken_over = talk_.how_ended() == Parting::ServerStops;
+    const auto longest = is_taken_over ? std::max(patience, kTakeOver) : patience;
+    if (talk_.state() == ConversationState::Away && now - last_live_ > longest.count())
       return error(last_why_);
     network_->wait(kClientTick);
   }

@@ -28,7 +28,7 @@ class Connection {
   void work();
   /// Works until `done` holds, which is asked after each thing that happens. False when `stops` held before,
   /// which is asked some times a second. Fails when the server does not let this client in (any more), or
-  /// when it was not reached for as long as `patience`.
+  /// when it was not reached for as long as `patience`, or longer where another server is to take over.
   base::Result<bool> work_until(const std::function<bool()>& done, const std::function<bool()>& stops,
                                 std::chrono::milliseconds patience);
   /// The reason why there was no connection, the last time.

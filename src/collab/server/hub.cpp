@@ -50,8 +50,10 @@ Opening open_from(OpLog& log, const std::string& design, const HubSettings& sett
   const auto lease = log.lease(design, settings.holder, settings.design_lease);
   if (!lease) {
     const auto now = log.find(design);
-    if (now && *now && (*now)->holder != settings.holder) opening.holder = (*now)->holder;
-    return failed(lease.error(), opening.holder.empty() ? Parting::Other : Parting::ServerStops);
+    if (!now || !*now || (*now)->holder == settings.holder) return failed(lease.error(), Parting::Other);
+    opening.holder = (*now)->holder;
+    return failed({"Another server has this design, and does not answer: wait some seconds."},
+                  Parting::ServerStops);
   }
   const auto start = read_start(log, **found, lease->fence);
   if (!start) return failed(start.error(), Parting::Other);

@@ -27,23 +27,18 @@ bool is_database_address(std::string_view text) {
   return text.starts_with("postgresql://") || text.starts_with("postgres://");
 }
 
-base::Result<Store> Store::open(const std::string& text) {
+base::Result<Store> Store::place(const std::string& text, bool makes) {
   if (is_database_address(text)) return Store(text, without_secrets(text), std::nullopt);
-  auto path = text.empty() ? StoreFolder::default_path() : base::Result<std::filesystem::path>(text);
+  const auto path = text.empty() ? StoreFolder::default_path() : base::Result<std::filesystem::path>(text);
   if (!path) return tl::unexpected(path.error());
-  auto folder = StoreFolder::open(*path);
+  const auto folder = makes ? StoreFolder::make(*path) : StoreFolder::open(*path);
   if (!folder) return tl::unexpected(folder.error());
-  return Store(text, folder->path().string(), std::move(*folder));
+  return Store(text, folder->path().string(), *folder);
 }
 
-base::Result<Store> Store::make(const std::string& text) {
-  if (is_database_address(text)) return open(text);
-  auto path = text.empty() ? StoreFolder::default_path() : base::Result<std::filesystem::path>(text);
-  if (!path) return tl::unexpected(path.error());
-  auto folder = StoreFolder::make(*path);
-  if (!folder) return tl::unexpected(folder.error());
-  return Store(text, folder->path().string(), std::move(*folder));
-}
+base::Result<Store> Store::open(const std::string& text) { return place(text, false); }
+
+base::Result<Store> Store::make(const std::string& text) { return place(text, true); }
 
 base::Result<std::unique_ptr<OpLog>> Store::log() const {
   const auto any = [](auto log) -> base::Result<std::unique_ptr<OpLog>> {

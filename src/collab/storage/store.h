@@ -9,8 +9,8 @@
 
 namespace icome::collab {
 
-/// A place where designs are kept, as `--store` names it: a folder of this machine, which one server serves at
-/// a time, or a PostgreSQL database, which servers on many machines do. A value that knows the place.
+/// A place where designs are kept, as `--store` names it: a folder of this machine, which one server serves
+/// at a time, or a PostgreSQL database, which servers on many machines do. A value that knows the place.
 class Store {
  public:
   /// A store that is there. An empty text is the usual folder, StoreFolder::default_path().
@@ -35,6 +35,7 @@ class Store {
  private:
   Store(std::string text, std::string shown, std::optional<StoreFolder> folder)
       : text_(std::move(text)), shown_(std::move(shown)), folder_(std::move(folder)) {}
+  static base::Result<Store> place(const std::string& text, bool makes);
   std::string text_;
   std::string shown_;
   std::optional<StoreFolder> folder_;
