@@ -213,7 +213,7 @@ void Session::move_points() {
 }
 
 bool SessionParts::is_settled() const {
-  if (loader.part() || saver.busy()) return false;
+  if (loader.part() || integrator.part() || saver.busy()) return false;
   if (journal && journal->followed() != queue.posted()) return false;
   return std::all_of(followers.begin(), followers.end(),
                      [this](const auto& it) { return it->followed() == queue.posted(); });

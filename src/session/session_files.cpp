@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "collab/client/integration.h"
 #include "files/design.h"
 #include "session/session_parts.h"
 #include "world/motion.h"
@@ -96,7 +97,24 @@ void SessionParts::take_saved(DesignSaver::Outcome& outcome) {
   queue.post(std::move(edited));
 }
 
+/// Puts a design that was read into this one.
+void SessionParts::take_integrated(DesignLoader::Outcome& outcome) {
+  const std::string name = shown_name(outcome.design);
+  if (!outcome.result || !*outcome.result) {
+    const std::string why = outcome.result ? outcome.result->error().message : name + ": it was cancelled.";
+    return tell(SessionEvent::Kind::IntegrateFailed, why);
+  }
+  const files::LoadedDesign& loaded = **outcome.result;
+  const world::ObjectId parent = world.find(integrate_under) ? integrate_under : world::ObjectId{};
+  const world::Edit edit = collab::integration_of(loaded.world, world, parent, ids);
+  const auto done = SessionHistory(*this).perform(edit, "Integrate " + name);
+  if (!done) return tell(SessionEvent::Kind::IntegrateFailed, done.error().message);
+  tell(SessionEvent::Kind::Integrated, fmt::format("{} was put into the design.", name),
+       sentences(loaded.remarks, outcome.design));
+}
+
 void SessionParts::take_files() {
+  if (auto read = integrator.poll()) take_integrated(*read);
   if (auto opened = loader.poll()) take_opened(*opened);
   while (auto saved = saver.poll()) take_saved(*saved);
   if (!journal) return;
@@ -126,6 +144,13 @@ void SessionFiles::open(const std::filesystem::path& design) {
 }
 
 void SessionFiles::cancel_open() { parts_.loader.cancel(); }
+
+void SessionFiles::integrate(const std::filesystem::path& design, world::ObjectId parent) {
+  parts_.integrate_under = parent;
+  parts_.integrator.open(design);
+}
+
+bool SessionFiles::integrating() const { return parts_.integrator.part().has_value(); }
 
 std::optional<double> SessionFiles::opening() const { return parts_.loader.part(); }
 

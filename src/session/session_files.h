@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "session/storage/recovery.h"
+#include "world/id.h"
 
 namespace icome::session {
 
@@ -25,6 +26,11 @@ class SessionFiles {
   void cancel_open();
   /// The part that is done, [0, 1], while a design is being read.
   std::optional<double> opening() const;
+  /// Starts reading a design that was made alone, to be put into this one: its roots come under `parent`, or to
+  /// the top, with all that they share, by one action. Where the parent is gone by then, to the top.
+  void integrate(const std::filesystem::path& design, world::ObjectId parent);
+  /// A design to be put into this one is being read.
+  bool integrating() const;
   /// Starts writing the world as it is now; that file is the design's once it is written. A file that another
   /// program has changed since, and a damaged one, are only replaced `anyway`; the event SaveAsks tells.
   void save(const std::filesystem::path& design, bool anyway = false);

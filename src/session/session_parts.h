@@ -104,6 +104,7 @@ struct SessionParts {
 
   // session_files.cpp
   void take_opened(DesignLoader::Outcome& outcome);
+  void take_integrated(DesignLoader::Outcome& outcome);
   void take_saved(DesignSaver::Outcome& outcome);
   void tell_of_saved(const DesignSaver::Outcome& outcome, const std::vector<std::string>& missing);
   void take_files();
@@ -228,6 +229,8 @@ struct SessionParts {
   render::RenderScenePointer looked_at;
   std::shared_ptr<const std::vector<std::string>> listened_to;
   DesignLoader loader;
+  DesignLoader integrator;              // of designs to be put into this one
+  world::ObjectId integrate_under = {};  // the parent
   DesignSaver saver;
   std::shared_ptr<JoinedDesign> joining = nullptr;             // not null: it is what the loader reads
   std::unique_ptr<SharedDesign> shared = nullptr;              // null: the design is on no server

@@ -68,6 +68,12 @@ class SharedNews {
     } else if (it.state == ConversationState::Live) {
       shared_.note_who_left();
       parts_.tell(Kind::ServerBack, fmt::format("The connection to {} is back.", where));
+      if (const std::size_t count = talk_.conflicts().size(); count > 0)
+        parts_.tell(Kind::Conflicts,
+                    count == 1 ? "One thing was changed both by you and by others while there was no connection."
+                               : fmt::format("{} things were changed both by you and by others while there was no "
+                                             "connection.",
+                                             count));
     } else if (!it.why.empty() && it.state == ConversationState::Joining) {
       parts_.tell(Kind::Notice, it.why);
     }
@@ -150,6 +156,7 @@ void SessionParts::begin_sharing(std::unique_ptr<collab::Connection> connection)
     if (const auto* const person = std::get_if<collab::Person>(&it); person && person->here)
       SharedNews (*this)(*person);
   addresses.add(collab::link_text(shared->talk().address()));
+  shared->talk().ask_for_choices();
   holds_are_new = true;
 }
 
@@ -325,6 +332,33 @@ base::Result<void> SessionSharing::take_away(ObjectId object) {
     return base::fail("Only who has a link with the role own may take things away.");
   parts_.shared->talk().take_away(collab::item_of(object));
   return {};
+}
+
+// ---- work without a connection
+
+std::vector<SessionSharing::Conflict> SessionSharing::conflicts() const {
+  std::vector<Conflict> result;
+  if (!parts_.shared) return result;
+  const collab::Conversation& talk = parts_.shared->talk();
+  if (talk.conflicts().empty()) return result;
+  const world::World made = talk.world_as_made_here();
+  for (const collab::Conflict& it : talk.conflicts()) {
+    const bool is_object = it.item.kind == collab::ItemKind::Object;
+    const world::World& named = collab::is_there(made, it.item) ? made : parts_.world;
+    result.push_back({collab::called(named, it.item), is_object ? ObjectId{it.item.id} : ObjectId{}, it.is_gone});
+  }
+  return result;
+}
+
+base::Result<void> SessionSharing::resolve(const std::vector<collab::Choice>& choices) {
+  if (!parts_.shared || choices.size() != parts_.shared->talk().conflicts().size())
+    return base::fail("These are choices for conflicts that are over.");
+  if (const auto kept = parts_.submit_tried(); !kept) return kept;
+  const auto resolved = parts_.shared->talk().resolve(choices, parts_.ids);
+  parts_.shared->goes_on = false;
+  parts_.revisions.performed();
+  parts_.mirror(true);
+  return resolved;
 }
 
 // ---- people

@@ -46,6 +46,17 @@ class SessionSharing {
   /// Nothing: the open design is on no server.
   std::optional<State> state() const;
 
+  /// A thing that was changed both here, while there was no connection, and by others.
+  struct Conflict {
+    std::string what = {};   // for people: "leg", "a shape"
+    world::ObjectId object = {};  // none: it is no object
+    bool is_gone = false;    // others have deleted it: one's own version can only be kept as a copy
+  };
+  /// Until they are chosen for, nothing of what was done here is sent.
+  std::vector<Conflict> conflicts() const;
+  /// A choice for each of them, in order. All that was done without a connection is one action to undo then.
+  base::Result<void> resolve(const std::vector<collab::Choice>& choices);
+
   /// Somebody who is at work in the design.
   struct Colleague {
     std::uint32_t author = 0;

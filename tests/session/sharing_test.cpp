@@ -93,7 +93,7 @@ TEST_F(Sharing, HoldsWhatIsSelected) {
   ann_->select({});
   until([&] { return has(told_bob_, SessionEvent::Kind::Notice); });
   EXPECT_EQ(text_of(told_bob_, SessionEvent::Kind::Notice), "You have \"leg\" now.");
-  EXPECT_TRUE(ann_->sharing().holder_of(leg));
+  until([&] { return ann_->sharing().holder_of(leg).has_value(); });
 }
 
 TEST_F(Sharing, AnOwnerTakesAwayAndTheOtherIsTold) {
@@ -161,6 +161,43 @@ TEST_F(Sharing, GoesOnWithoutTheServerAndSendsWhatWasDoneWhenItIsBack) {
   until_same();
   EXPECT_EQ(x_of(*bob_, leg), 4.0);
   EXPECT_FALSE(ann_->files().modified());
+}
+
+/// Ann's connection is cut off alone: she is not asked to go on while Bob works.
+TEST_F(Sharing, LetsOneChooseWhereOthersChangedTheSameWhileThereWasNoConnection) {
+  const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg"), lamp = add_box(*ann_, world::at(1, 0, 0), "lamp"),
+                 vase = add_box(*ann_, world::at(2, 0, 0), "vase"), dish = add_box(*ann_, world::at(3, 0, 0), "dish");
+  until_same();
+  served_.stop();
+  until([&] { return has(told_ann_, SessionEvent::Kind::ServerLost) && has(told_bob_, SessionEvent::Kind::ServerLost); });
+  const auto move = [](Session& who, ObjectId id, double y) {
+    ASSERT_TRUE(who.history().perform(world::PlaceObject{id, world::at(0, y, 0)}, "Move"));
+  };
+  for (const ObjectId id : {leg, lamp, vase, dish}) move(*ann_, id, 1.0);
+  for (const ObjectId id : {leg, lamp}) move(*bob_, id, 2.0);
+  ASSERT_TRUE(bob_->history().perform(world::DeleteObject{vase}, "Delete vase"));
+  served_.start();
+  run_until(*bob_, [&] { return bob_->sharing().state()->unsent == 0; });
+  until([&] { return has(told_ann_, SessionEvent::Kind::Conflicts); });
+  const auto conflicts = ann_->sharing().conflicts();
+  ASSERT_EQ(conflicts.size(), 3U);
+  EXPECT_EQ(conflicts[0].what, "\"leg\"");
+  EXPECT_TRUE(conflicts[2].is_gone);
+  EXPECT_FALSE(ann_->sharing().resolve({collab::Choice::Mine}));
+  ASSERT_TRUE(ann_->sharing().resolve({collab::Choice::Mine, collab::Choice::Both, collab::Choice::Both}));
+  until_same();
+  const auto y_of = [&](ObjectId id) { return bob_->world().find(id)->parent_from_object.translation().y(); };
+  EXPECT_EQ(y_of(leg), 1.0);
+  EXPECT_EQ(y_of(lamp), 2.0);
+  EXPECT_EQ(y_of(dish), 1.0) << "nobody else touched it";
+  ASSERT_EQ(bob_->world().roots().size(), 5U);
+  EXPECT_EQ(bob_->world().find(bob_->world().roots()[3])->name, "lamp (copy)");
+  EXPECT_EQ(bob_->world().find(bob_->world().roots()[4])->name, "vase (copy)");
+  ASSERT_TRUE(ann_->history().undo()) << "all of it at once";
+  until_same();
+  EXPECT_EQ(bob_->world().roots().size(), 3U);
+  EXPECT_EQ(y_of(leg), 2.0);
+  EXPECT_EQ(y_of(dish), 0.0);
 }
 
 TEST_F(Sharing, WhoMayOnlyLookChangesNothing) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "collab/order/fitted_edit.h"
 #include "collab/order/world_bytes.h"
 #include "collab/protocol/message_bytes.h"
 #include "world/edit/edit_bytes.h"
@@ -57,6 +58,8 @@ void Conversation::closed(const std::string& why, std::int64_t now) {
   sightings_.clear();
   for (auto& [author, person] : people_) person.here = false;
   if (const auto done = replica_.rewind(); !done) needs_anew_ = true;
+  if (state_ == ConversationState::Live && conflicts_.empty()) actions_before_ = replica_.actions();
+  conflicts_.clear();  // they are found anew, from where the work without a connection began
   if (state_ != ConversationState::Ended) change_state(ConversationState::Away, why_.empty() ? why : why_);
   if (state_ != ConversationState::Ended) why_.clear();
 }
@@ -86,7 +89,7 @@ SharedBytes Conversation::next_frame(std::int64_t now) {
     alive_said_ = now;
     queue(Alive{std::uint64_t(now)});
   }
-  if (state_ == ConversationState::Live) {
+  if (state_ == ConversationState::Live && conflicts_.empty()) {
     queue_edits();
     if (std::exchange(asks_again_, false)) ask_again();
   }
@@ -169,6 +172,7 @@ void Conversation::hear(Welcome& message) {
   lease_ = message.lease;
   welcome_ = message;
   settled_ = false;
+  if (asks_for_choices_ && !before_ && replica_.pending() > 0) before_ = replica_.world_of_server();
   change_state(ConversationState::Joining, "");
   if (!message.loads) return go_live_if_caught_up();
   if (!goes_on) snapshot_.clear();
@@ -233,7 +237,41 @@ void Conversation::go_live_if_caught_up() {
   auto dropped = replica_.settle(welcome_->last_number, welcome_->loads ? welcome_->accepted_from : 0);
   if (!dropped) return begin_anew(dropped.error());
   for (Dropped& it : *dropped) seen_.emplace_back(std::move(it));
+  find_conflicts();
   change_state(ConversationState::Live, "");
+}
+
+void Conversation::find_conflicts() {
+  if (!before_) return;
+  made_here_ = replica_.pending_edits();
+  conflicts_ = conflicts_of(made_here_, *before_, replica_.world_of_server());
+  if (conflicts_.empty()) before_.reset();
+}
+
+world::World Conversation::world_as_made_here() const {
+  world::World world = *before_;
+  for (const world::Edit& edit : made_here_) (void)apply_fitted(world, edit);
+  return world;
+}
+
+base::Result<void> Conversation::resolve(std::span<const Choice> choices, world::IdSource& ids) {
+  const world::World made = world_as_made_here();
+  const std::vector<Conflict> conflicts = std::exchange(conflicts_, {});
+  before_.reset();
+  made_here_.clear();
+  base::Result<void> result;
+  const auto note = [&](const auto& done) {
+    if (!done && result) result = tl::unexpected(done.error());
+  };
+  for (std::size_t i = 0; i < conflicts.size(); ++i)
+    if (choices[i] != Choice::Mine) note(replica_.give_up(conflicts[i].item));
+  for (std::size_t i = 0; i < conflicts.size(); ++i) {
+    const world::ObjectId object{conflicts[i].item.id};
+    if (choices[i] != Choice::Both || conflicts[i].item.kind != ItemKind::Object || !made.find(object)) continue;
+    note(perform(copy_into(made, object, replica_.world(), ids), "Keep a copy"));
+  }
+  replica_.join_actions(actions_before_, "Work without the server");
+  return result;
 }
 
 void Conversation::hear(Ordered& message) {
@@ -371,6 +409,7 @@ void Conversation::select(Item item, bool waits) {
     asks_again_ = true;
     return;
   }
+  if (!conflicts_.empty()) return;
   queue_edits();  // it may be of these
   queue(Select{item, waits});
 }

@@ -3,10 +3,12 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "collab/client/divergence.h"
 #include "collab/client/obstacle.h"
 #include "collab/client/replica.h"
 #include "collab/link/link_loop.h"
@@ -91,6 +93,17 @@ class Conversation {
   base::Result<std::uint64_t> undo() { return turn(true); }
   base::Result<std::uint64_t> redo() { return turn(false); }
 
+  // ---- work without a connection
+  /// From now on a person chooses where own edits of a time without a connection and others' are in conflict:
+  /// when it is back, nothing is sent until resolve().
+  void ask_for_choices() { asks_for_choices_ = true; }
+  /// The things to choose for; empty: there is nothing to choose.
+  const std::vector<Conflict>& conflicts() const { return conflicts_; }
+  /// The world as it was made here, without what others did meanwhile. Precondition: there are conflicts.
+  world::World world_as_made_here() const;
+  /// Does as was chosen, of all conflicts() in order, and goes on. New things get ids of the source.
+  base::Result<void> resolve(std::span<const Choice> choices, world::IdSource& ids);
+
   // ---- the floor
   void select(Item item, bool waits = false);
   void deselect(Item item);
@@ -144,6 +157,7 @@ class Conversation {
   void want_pieces();
   void finish_loading();
   void go_live_if_caught_up();
+  void find_conflicts();
   void change_state(ConversationState state, const std::string& why);
   void begin_anew(const base::Error& error);
   void end(const std::string& why, Parting code);
@@ -172,6 +186,12 @@ class Conversation {
   std::uint32_t lease_ = 0;      // ms
   std::int64_t alive_said_ = 0;  // ms
   std::optional<std::int64_t> delay_;
+
+  bool asks_for_choices_ = false;
+  std::optional<world::World> before_;  // as the server had it when the connection was lost; own edits are pending
+  std::size_t actions_before_ = 0;      // own ones, when the connection was lost
+  std::vector<world::Edit> made_here_;  // of them, what was pending
+  std::vector<Conflict> conflicts_;
 
   Holds holds_;
   std::map<Item, bool> wanted_;  // what was selected, so that it is asked for again; waits?

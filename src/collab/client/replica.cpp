@@ -318,6 +318,39 @@ base::Result<std::vector<Dropped>> Replica::give_up_pending(const std::string& w
   return dropped;
 }
 
+world::World Replica::world_of_server() {
+  world::World copy = world_;
+  for (auto it = pending_.rbegin(); it != pending_.rend(); ++it)
+    if (it->inverse) (void)world::apply(copy, *it->inverse);
+  return copy;
+}
+
+std::vector<world::Edit> Replica::pending_edits() const {
+  std::vector<world::Edit> edits;
+  for (const Pending& it : pending_) edits.push_back(it.edit);
+  return edits;
+}
+
+base::Result<void> Replica::give_up(Item item) {
+  if (auto done = take_pending_back(); !done) return done;
+  for (std::size_t i = pending_.size(); i > 0; --i) {
+    const auto touched = touched_by(pending_[i - 1].edit);
+    if (std::ranges::any_of(touched, [&](const Touched& it) { return it.item == item; }))
+      (void)drop(i - 1, {}, 0);
+  }
+  redo_pending();
+  return {};
+}
+
+void Replica::join_actions(std::size_t count, const std::string& name) {
+  if (done_.size() < count + 2) return;
+  Action joined{name, {}};
+  for (std::size_t i = count; i < done_.size(); ++i)
+    joined.numbers.insert(joined.numbers.end(), done_[i].numbers.begin(), done_[i].numbers.end());
+  done_.resize(count);
+  done_.push_back(std::move(joined));
+}
+
 void Replica::begin_history() {
   durable_ = 0;
   has_base_ = false;

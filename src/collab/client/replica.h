@@ -85,6 +85,17 @@ class Replica {
   base::Result<void> put_aside();
   void refresh();
 
+  // ---- what was done while there was no connection
+  /// The world without the own edits that the server has not ordered.
+  world::World world_of_server();
+  /// The own edits that the server has not ordered, in order.
+  std::vector<world::Edit> pending_edits() const;
+  /// Gives up those that change this thing.
+  base::Result<void> give_up(Item item);
+  /// All own actions behind the first `count` are one from now on, to be taken back at once.
+  void join_actions(std::size_t count, const std::string& name);
+  std::size_t actions() const { return done_.size(); }
+
   // ---- what the server says; a failure means that the copy differs from the server's: begin() anew
 
   /// Begins with a snapshot, which holds the own edits with these numbers; the other pending ones are redone

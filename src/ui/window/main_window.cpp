@@ -17,6 +17,7 @@
 #include "ui/forms/elided_label.h"
 #include "ui/look/icons.h"
 #include "ui/panels/object_look.h"
+#include "ui/sharing/conflict_dialog.h"
 #include "ui/window/status_strip.h"
 
 namespace icome::ui {
@@ -222,6 +223,20 @@ void MainWindow::hear(const session::SessionEvent& event) {
     session_.view().home();
     if (session_.sharing().state()) show_people();
   }
+  if (event.kind == Kind::Conflicts) choose_for_conflicts();
+}
+
+void MainWindow::choose_for_conflicts() {
+  if (session_.sharing().conflicts().empty() || findChild<QDialog*>("conflicts") != nullptr) return;
+  auto* dialog = new ConflictDialog(
+      session_,
+      [this](const base::Result<void>& done) {
+        banner_->forget("conflicts");
+        if (!done) tell_error(done.error().message);
+      },
+      this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->open();
 }
 
 void MainWindow::tell_error(const std::string& why) {
@@ -261,6 +276,9 @@ void MainWindow::remedy(const Note& note, Note::Remedy what) {
       break;
     case Note::Remedy::Open:
       files_.open(note.design);
+      break;
+    case Note::Remedy::Choose:
+      choose_for_conflicts();
       break;
   }
 }

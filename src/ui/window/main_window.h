@@ -79,6 +79,7 @@ class MainWindow final : public QMainWindow {
   void show_devices();
   void show_people();
   void show_sharing();
+  void choose_for_conflicts();
   void find_command();
   bool offer_drop(QDropEvent& drop, bool over_scene);
   void drop_picture(const std::filesystem::path& file, const SceneInput& input);

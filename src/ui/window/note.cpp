@@ -46,6 +46,8 @@ const char* label(Remedy remedy) {
       return "Discard";
     case Remedy::Open:
       return "Open";
+    case Remedy::Choose:
+      return "Choose\u2026";
   }
   return "";
 }
@@ -125,6 +127,11 @@ Note note_of(const SessionEvent& event) {
       note.topic = "server";
       note.weight = Weight::Error;
       note.remedies = {Remedy::SaveAs};
+      break;
+    case SessionEvent::Kind::Conflicts:
+      note.topic = "conflicts";
+      note.weight = Weight::Warning;
+      note.remedies = {Remedy::Choose};
       break;
     case SessionEvent::Kind::Dropped:
       note.topic = event.text;

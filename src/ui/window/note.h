@@ -24,6 +24,7 @@ struct Note {
     Recover,         // the work of `journal`
     DiscardJournal,  // of the work of `journal`
     Open,            // `design`
+    Choose,          // for conflicts
   };
   Weight weight = Weight::Plain;
   std::string text = {};

@@ -62,6 +62,7 @@ void SimulatedWork::make_client(Client& client, bool same_key) {
           fault_ = "A replica tells of an edit that does not apply to a copy of it.";
         }
       });
+  client.talk->ask_for_choices();
   client.edits.reset();
   client.link.reset();
   client.up = client.down = {};
@@ -126,8 +127,23 @@ void SimulatedWork::weather_on(Client& client) {
   }
 }
 
+/// Somebody chooses, sooner or later.
+void SimulatedWork::choose(Conversation& talk) {
+  if (talk.conflicts().empty()) return;
+  ++conflicts_;
+  std::vector<Choice> choices;
+  for (const Conflict& it : talk.conflicts()) {
+    const auto choice = Choice(random_.index(3));
+    choices.push_back(it.is_gone && choice == Choice::Mine ? Choice::Theirs : choice);
+  }
+  const std::uint32_t author = talk.replica().author();
+  world::IdSource ids(author, talk.replica().world().next_number(author) + 1'000'000);
+  (void)talk.resolve(choices, ids);
+}
+
 void SimulatedWork::act(Client& client) {
   Conversation& talk = *client.talk;
+  if (random_.index(4) == 0) choose(talk);
   const Replica& replica = talk.replica();
   if (replica.author() == 0 || random_.uniform() >= weather_.edits) return;
   if (!client.edits)
@@ -238,7 +254,7 @@ void SimulatedWork::step(bool is_rough) {
   for (Client& client : clients_) {
     if (is_rough) weather_on(client);
     if (!client.link) connect(client);
-    if (is_rough) act(client);
+    is_rough ? act(client) : choose(*client.talk);
     if (client.link)
       while (const SharedBytes frame = client.talk->next_frame(now_)) send(client.up, *frame);
     deliver(client);

@@ -61,6 +61,7 @@ class SimulatedWork {
   std::uint64_t ordered() const { return log_.appended().size(); }
   std::uint64_t restarts() const { return restarts_; }
   std::uint64_t dropped() const { return dropped_; }
+  std::uint64_t conflicts() const { return conflicts_; }
 
  private:
   struct Flight {
@@ -85,6 +86,7 @@ class SimulatedWork {
   void step(bool is_rough);
   void weather_on(Client& client);
   void act(Client& client);
+  void choose(Conversation& talk);
   void act_by_edit(Conversation& talk, const world::Edit& edit);
   void connect(Client& client);
   void cut(Client& client, const std::string& why);
@@ -114,7 +116,7 @@ class SimulatedWork {
   std::int64_t next_tick_ = 0;
   std::string token_;
   std::set<std::pair<std::uint32_t, std::uint64_t>> acknowledged_, refused_;  // author and number
-  std::uint64_t restarts_ = 0, dropped_ = 0;
+  std::uint64_t restarts_ = 0, dropped_ = 0, conflicts_ = 0;
   std::string fault_;
 };
 

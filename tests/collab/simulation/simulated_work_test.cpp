@@ -35,7 +35,7 @@ TEST(SimulatedWork, EndsWellWhateverHappens) {
   const std::uint64_t count = only ? 1 : std::uint64_t(repeats(10'000));
   constexpr int kMostFaults = 10;
   int faults = 0;
-  std::uint64_t ordered = 0, restarts = 0, dropped = 0;
+  std::uint64_t ordered = 0, restarts = 0, dropped = 0, conflicts = 0;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     SimulatedWork work(seed, weather_of(seed), signer);
     const std::string fault = work.run();
@@ -44,12 +44,14 @@ TEST(SimulatedWork, EndsWellWhateverHappens) {
     ordered += work.ordered();
     restarts += work.restarts();
     dropped += work.dropped();
+    conflicts += work.conflicts();
   }
   // The weather was as rough as it is meant to be.
   if (only) return;
   EXPECT_GT(ordered, count * 20);
   EXPECT_GT(restarts, count / 2);
   EXPECT_GT(dropped, count / 2);
+  EXPECT_GT(conflicts, count / 10);
   RecordProperty("ordered", std::to_string(ordered));
 }
 
