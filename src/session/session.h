@@ -54,6 +54,8 @@ struct SessionEvent {
     AutosaveResumed,
     DeviceLost,
     DeviceBack,
+    Integrated,  // a design was put into this one
+    IntegrateFailed,
     ServerLost,  // of a shared design: one works on, and what is done is sent later
     ServerBack,
     SharingEnds,  // the design stays here, as a new one

@@ -74,6 +74,8 @@ void SessionParts::open_world(world::World opened, const std::filesystem::path& 
   world = std::move(opened);
   history = {};
   leave_shared();
+  integrator.cancel();
+  (void)integrator.poll();
   ids = world::IdSource(0, world.next_number(0));
   revisions.restart();
   constexpr std::uint64_t kNever = 0;  // what was recovered is in no file

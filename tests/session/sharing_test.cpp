@@ -1,5 +1,7 @@
 // Sessions that work on one design, by a server on the loopback.
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 
 #include "collab/server/served_design.h"
 #include "session/session_sharing.h"
@@ -230,6 +232,24 @@ TEST_F(Sharing, PeopleAreSeenAndHeard) {
   until([&] { return ann_->sharing().people().size() == 1; });
   EXPECT_FALSE(bob_->sharing().state());
   EXPECT_EQ(ann_->sharing().lines().back().text, "has left");
+}
+
+TEST_F(Sharing, IntegratesADesignThatWasMadeAlone) {
+  const ObjectId table = add_box(*ann_, world::at(0, 0, 0), "table");
+  until_same();
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "icome_made_alone.wrl";
+  std::ofstream(file) << "#VRML V2.0 utf8\nDEF leg Transform { children Shape { geometry Box {} } }\n";
+  ann_->files().integrate(file, table);
+  until([&] { return has(told_ann_, SessionEvent::Kind::Integrated); });
+  until_same();
+  ASSERT_EQ(bob_->world().find(table)->children.size(), 1U);
+  EXPECT_EQ(bob_->world().find(bob_->world().find(table)->children[0])->name, "leg");
+  ASSERT_TRUE(ann_->history().undo());
+  until_same();
+  EXPECT_TRUE(bob_->world().find(table)->children.empty());
+  ann_->files().integrate(file / "missing.wrl", table);
+  until([&] { return has(told_ann_, SessionEvent::Kind::IntegrateFailed); });
+  std::filesystem::remove(file);
 }
 
 TEST_F(Sharing, TellsWhyADesignCannotBeJoined) {

@@ -48,6 +48,8 @@ void FileActions::fill(QMenu& menu) {
   recent_menu_->setObjectName("file.recent");
   QObject::connect(recent_menu_, &QMenu::aboutToShow, &window_, [this] { fill_recent(); });
   recent_menu_->setEnabled(!recent_.paths().isEmpty());
+  add_action(menu, "file.integrate", "&Integrate a Design\u2026", {}, [this] { choose_and_integrate(); })
+      ->setStatusTip("Puts all of another design into this one, under the selected object");
   menu.addSeparator();
   save_ = add_action(menu, "file.save", "&Save", QKeySequence::Save, [this] { save(); });
   save_->setIcon(icon(Icon::Save));
@@ -84,6 +86,7 @@ QString FileActions::doing() const {
     return opened_.empty() ? QString("Reading\u2026")
                            : QString("Reading %1\u2026").arg(text_of(opened_.filename()));
   }
+  if (session_.files().integrating()) return QString("Reading a design to integrate\u2026");
   if (session_.files().saving()) return QString("Saving %1\u2026").arg(text_of(saved_.filename()));
   return {};
 }
@@ -119,6 +122,21 @@ void FileActions::open_address(const QString& address) {
     given_up_ = false;
     session_.sharing().open(address.toStdString(), person_name(settings_).toStdString());
   });
+}
+
+void FileActions::choose_and_integrate() {
+  if (!begin_()) return;
+  auto* dialog = new QFileDialog(&window_, "Integrate a Design");
+  dialog->setObjectName("integrate");
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  dialog->setNameFilters(open_filters());
+  if (!recent_.paths().isEmpty()) dialog->setDirectory(QFileInfo(recent_.paths().front()).dir());
+  QObject::connect(dialog, &QFileDialog::fileSelected, &window_, [this](const QString& path) {
+    const auto& selected = session_.selection();
+    session_.files().integrate(path_of(path), selected.size() == 1 ? selected.front() : world::ObjectId{});
+  });
+  dialog->open();
 }
 
 void FileActions::choose_address() {

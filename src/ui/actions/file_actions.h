@@ -41,6 +41,8 @@ class FileActions {
   /// Joins a design on a server, likewise.
   void open_address(const QString& address);
   void choose_address();
+  /// Puts a design that was made alone into this one, under the selected object if it is one.
+  void choose_and_integrate();
   void save();
   void save_again();
   void save_as();

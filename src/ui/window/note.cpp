@@ -115,6 +115,14 @@ Note note_of(const SessionEvent& event) {
       note.topic = device_topic(event);
       note.weight = Weight::Passing;
       break;
+    case SessionEvent::Kind::Integrated:
+      note.topic = "integrate";
+      note.weight = event.details.empty() ? Weight::Passing : Weight::Plain;
+      break;
+    case SessionEvent::Kind::IntegrateFailed:
+      note.topic = "integrate";
+      note.weight = Weight::Error;
+      break;
     case SessionEvent::Kind::ServerLost:
       note.topic = "server";
       note.weight = Weight::Warning;
