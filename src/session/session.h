@@ -60,6 +60,7 @@ struct SessionEvent {
     ServerBack,
     SharingEnds,  // the design stays here, as a new one
     Dropped,      // something that one did to a shared design did not come to be
+    Floor,        // who has a thing now
     Conflicts,    // SessionSharing::conflicts() are to be chosen for
     NotAsItIs,    // details: things that are not seen, not felt, or not as they are
     Notice,       // such as that the servo has no real-time priority

@@ -93,6 +93,7 @@ struct SessionParts {
   void take_shared();
   void mirror(bool own);
   void take_another_world();
+  void keep_against_crashes(bool keeps);
   void post_mirrored(world::EditGroup group, bool own);
   base::Result<void> perform_for_all(const world::Edit& edit, const std::string& name, bool goes_on);
   base::Result<void> turn_for_all(bool back);
@@ -229,7 +230,7 @@ struct SessionParts {
   render::RenderScenePointer looked_at;
   std::shared_ptr<const std::vector<std::string>> listened_to;
   DesignLoader loader;
-  DesignLoader integrator;              // of designs to be put into this one
+  DesignLoader integrator;               // of designs to be put into this one
   world::ObjectId integrate_under = {};  // the parent
   DesignSaver saver;
   std::shared_ptr<JoinedDesign> joining = nullptr;             // not null: it is what the loader reads

@@ -61,6 +61,7 @@ class SharedNews {
     const std::string where = collab::shown_address(talk_.address());
     parts_.holds_are_new = true;
     if (it.state == ConversationState::Away) {
+      parts_.keep_against_crashes(true);
       parts_.tell(Kind::ServerLost,
                   fmt::format("The connection to {} is lost: {} You can go on: what you do is sent when the "
                               "server is back.",
@@ -70,10 +71,11 @@ class SharedNews {
       parts_.tell(Kind::ServerBack, fmt::format("The connection to {} is back.", where));
       if (const std::size_t count = talk_.conflicts().size(); count > 0)
         parts_.tell(Kind::Conflicts,
-                    count == 1 ? "One thing was changed both by you and by others while there was no connection."
-                               : fmt::format("{} things were changed both by you and by others while there was no "
-                                             "connection.",
-                                             count));
+                    count == 1
+                        ? "One thing was changed both by you and by others while there was no connection."
+                        : fmt::format("{} things were changed both by you and by others while there was no "
+                                      "connection.",
+                                      count));
     } else if (!it.why.empty() && it.state == ConversationState::Joining) {
       parts_.tell(Kind::Notice, it.why);
     }
@@ -86,16 +88,21 @@ class SharedNews {
   void operator()(const collab::Selected& it) {
     parts_.holds_are_new = true;
     if (it.waits)
-      parts_.tell(SessionEvent::Kind::Notice,
-                  it.why + " You get it when it is given back, or nobody else waits before you.");
+      parts_.tell(SessionEvent::Kind::Floor,
+                  it.why + " You get it as soon as it is given back and nobody waits before you.");
     else if (it.granted && shared_.take_waited(it.item))
-      parts_.tell(SessionEvent::Kind::Notice,
+      parts_.tell(SessionEvent::Kind::Floor,
                   fmt::format("You have {} now.", collab::called(talk_.replica().world(), it.item)));
   }
   void operator()(const collab::FloorChanged& it) {
     parts_.holds_are_new = true;
-    if (it.taken_by == 0 || !shared_.lose(it.item)) return;
-    parts_.tell(SessionEvent::Kind::Notice,
+    const bool is_taken = it.taken_by != 0 && it.taken_by != talk_.replica().author();
+    const bool is_lost = is_taken && shared_.lose(it.item);
+    if (it.holder == 0) shared_.ask_again(it.item);
+    if (!is_lost) return;
+    parts_.revisions.performed();  // drags end
+    shared_.goes_on = false;
+    parts_.tell(SessionEvent::Kind::Floor,
                 fmt::format("{} took {} away from you.", talk_.name_of(it.taken_by),
                             collab::called(talk_.replica().world(), it.item)));
   }
@@ -182,6 +189,15 @@ void SessionParts::close_left() {
 
 // ---- what others and oneself do
 
+/// While there is no server, the journal keeps the design with all that is done to it.
+void SessionParts::keep_against_crashes(bool keeps) {
+  if (std::exchange(shared->is_journalled, keeps) == keeps) return;
+  Edited edited;
+  edited.saved = std::make_shared<const SavedWork>(
+      SavedWork{.number = queue.posted() + 1, .in_part = keeps, .by_server = !keeps});
+  queue.post(std::move(edited));
+}
+
 /// Takes in what came from the server, and sends what is to be said.
 void SessionParts::take_shared() {
   close_left();
@@ -201,6 +217,8 @@ void SessionParts::take_shared() {
     saved_revision = 0;  // it is in no file
     return;
   }
+  if (talk.state() == ConversationState::Live && talk.replica().unacknowledged() == 0)
+    keep_against_crashes(false);
   present();
 }
 
@@ -272,6 +290,9 @@ base::Result<void> SessionParts::perform_for_all(const world::Edit& edit, const 
   if (const auto kept = submit_tried(); !kept) return kept;
   const auto number = shared->talk().perform(edit, name, goes_on);
   if (!number) return tl::unexpected(number.error());
+  // Who changes a shape or a material has it alone, until something else is selected.
+  for (const collab::Item item : collab::needs_of(edit).items)
+    if (item.kind != collab::ItemKind::Object) shared->hold_for_action(item);
   shared->goes_on = true;
   revisions.performed();
   mirror(true);
@@ -318,8 +339,7 @@ std::optional<SessionSharing::Holder> SessionSharing::holder_of(ObjectId object)
   if (!hold) return std::nullopt;
   const auto person = talk.people().find(hold->holder);
   const collab::Person known = person == talk.people().end() ? collab::Person{hold->holder} : person->second;
-  return Holder{hold->holder, talk.name_of(hold->holder), collab::shown_colour(known),
-                ObjectId{hold->item.id}};
+  return Holder{hold->holder, talk.name_of(hold->holder), known.colour, ObjectId{hold->item.id}};
 }
 
 void SessionSharing::wait_for(ObjectId object) {
@@ -345,7 +365,8 @@ std::vector<SessionSharing::Conflict> SessionSharing::conflicts() const {
   for (const collab::Conflict& it : talk.conflicts()) {
     const bool is_object = it.item.kind == collab::ItemKind::Object;
     const world::World& named = collab::is_there(made, it.item) ? made : parts_.world;
-    result.push_back({collab::called(named, it.item), is_object ? ObjectId{it.item.id} : ObjectId{}, it.is_gone});
+    result.push_back(
+        {collab::called(named, it.item), is_object ? ObjectId{it.item.id} : ObjectId{}, it.is_gone});
   }
   return result;
 }
@@ -372,7 +393,8 @@ std::optional<SessionSharing::State> SessionSharing::state() const {
                talk.address().design,
                talk.delay(),
                talk.replica().unacknowledged(),
-               parts_.shared->last_why()};
+               parts_.shared->last_why(),
+               talk.silence()};
 }
 
 std::vector<SessionSharing::Colleague> SessionSharing::people() const {
@@ -381,9 +403,8 @@ std::vector<SessionSharing::Colleague> SessionSharing::people() const {
   const collab::Conversation& talk = parts_.shared->talk();
   for (const auto& [author, person] : talk.people()) {
     if (!person.here) continue;
-    Colleague it{
-        author, person.name, collab::shown_colour(person), person.role, author == talk.replica().author(),
-        {},     false};
+    Colleague it{author, person.name, person.colour, person.role, author == talk.replica().author(),
+                 {},     false};
     for (const auto& [item, hold] : talk.holds())
       if (hold.holder == author && item.kind == collab::ItemKind::Object)
         it.holds.push_back(ObjectId{item.id});
@@ -395,8 +416,9 @@ std::vector<SessionSharing::Colleague> SessionSharing::people() const {
   return result;
 }
 
-void SessionSharing::say(const std::string& text) {
-  if (parts_.shared && !text.empty()) parts_.shared->talk().say(text);
+base::Result<void> SessionSharing::say(const std::string& text) {
+  if (!parts_.shared || text.empty()) return {};
+  return parts_.shared->talk().say(text);
 }
 
 const std::deque<SharedLine>& SessionSharing::lines() const {
@@ -475,8 +497,7 @@ void SessionParts::renew_people() {
       const auto person = talk.people().find(hold.holder);
       const collab::Person known =
           person == talk.people().end() ? collab::Person{hold.holder} : person->second;
-      held_outlines.push_back(
-          {world::subtree(world, ObjectId{item.id}), colour_of(collab::shown_colour(known))});
+      held_outlines.push_back({world::subtree(world, ObjectId{item.id}), colour_of(known.colour)});
     }
     look_is_new = true;
   }
@@ -486,7 +507,7 @@ void SessionParts::renew_people() {
     const auto person = talk.people().find(author);
     if (person == talk.people().end() || !person->second.here) continue;
     const auto sign = look.name_signs.find(author);
-    people.push_back({colour_of(collab::shown_colour(person->second)),
+    people.push_back({colour_of(person->second.colour),
                       sign == look.name_signs.end() ? nullptr : sign->second, where, followed != author});
   }
   look_is_new = true;

@@ -42,15 +42,16 @@ class SessionSharing {
     std::optional<std::int64_t> delay = {};  // ms there and back
     std::size_t unsent = 0;                  // own edits that the server has not made durable yet
     std::string why = {};                    // there is no connection
+    std::int64_t silence = 0;                // ms since the server was heard last
   };
   /// Nothing: the open design is on no server.
   std::optional<State> state() const;
 
   /// A thing that was changed both here, while there was no connection, and by others.
   struct Conflict {
-    std::string what = {};   // for people: "leg", "a shape"
+    std::string what = {};        // for people: "leg", "a shape"
     world::ObjectId object = {};  // none: it is no object
-    bool is_gone = false;    // others have deleted it: one's own version can only be kept as a copy
+    bool is_gone = false;         // others have deleted it: one's own version can only be kept as a copy
   };
   /// Until they are chosen for, nothing of what was done here is sent.
   std::vector<Conflict> conflicts() const;
@@ -86,7 +87,8 @@ class SessionSharing {
   /// The design as all have it, without what is only tried out here.
   const world::World& design() const;
 
-  void say(const std::string& text);
+  /// Fails as collab::Conversation::say() does.
+  base::Result<void> say(const std::string& text);
   /// What people said and did, the newest last.
   const std::deque<SharedLine>& lines() const;
 

@@ -169,8 +169,8 @@ void SessionParts::publish_wish() {
   drawn_view = now;
   DisplayWish wish = look;
   wish.view = now;
-  wish.look.outlines = held_outlines;
   if (!outlined.empty()) wish.look.outlines.push_back({outlined, look.selection});
+  wish.look.outlines.insert(wish.look.outlines.end(), held_outlines.begin(), held_outlines.end());
   add_marks(wish.look.overlay, symbols);
   add_marks(wish.look.overlay, part_outlines.overlay(marked_part));
   add_marks(wish.look.overlay, people_marks(people, now));

@@ -90,22 +90,68 @@ TEST_F(Sharing, HoldsWhatIsSelected) {
   EXPECT_EQ(moved.error().message, "Ann holds \"leg\".");
   EXPECT_EQ(bob_->sharing().people()[1].holds, std::vector<ObjectId>{leg});
   bob_->sharing().wait_for(leg);
-  until([&] { return has(told_bob_, SessionEvent::Kind::Notice); });
+  until([&] { return has(told_bob_, SessionEvent::Kind::Floor); });
   told_bob_.clear();
   ann_->select({});
-  until([&] { return has(told_bob_, SessionEvent::Kind::Notice); });
-  EXPECT_EQ(text_of(told_bob_, SessionEvent::Kind::Notice), "You have \"leg\" now.");
+  until([&] { return has(told_bob_, SessionEvent::Kind::Floor); });
+  EXPECT_EQ(text_of(told_bob_, SessionEvent::Kind::Floor), "You have \"leg\" now.");
   until([&] { return ann_->sharing().holder_of(leg).has_value(); });
+}
+
+TEST_F(Sharing, DeletesAndGroupsWhatIsHeldAlthoughItIsSelectedNoMore) {
+  for (int turn = 0; turn < 10; ++turn) {
+    const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg");
+    ann_->select({leg});
+    until([&] { return bob_->world().find(leg) && bob_->sharing().holder_of(leg).has_value(); });
+    ASSERT_TRUE(ann_->history().perform(world::DeleteObject{leg}, "Delete leg"));
+    until_same();
+    EXPECT_FALSE(bob_->world().find(leg));
+  }
+  EXPECT_FALSE(has(told_ann_, SessionEvent::Kind::Dropped));
 }
 
 TEST_F(Sharing, AnOwnerTakesAwayAndTheOtherIsTold) {
   const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg");
   ann_->select({leg});
   until([&] { return bob_->world().find(leg) && bob_->sharing().holder_of(leg).has_value(); });
+  bob_->select({leg});
+  ASSERT_TRUE(ann_->history().perform(world::PlaceObject{leg, world::at(1, 0, 0)}, "Move leg"));
   EXPECT_FALSE(ann_->sharing().take_away(leg));
   ASSERT_TRUE(bob_->sharing().take_away(leg));
-  until([&] { return has(told_ann_, SessionEvent::Kind::Notice); });
-  EXPECT_EQ(text_of(told_ann_, SessionEvent::Kind::Notice), "Bob took \"leg\" away from you.");
+  until([&] {
+    return has(told_ann_, SessionEvent::Kind::Floor) && ann_->sharing().holder_of(leg).has_value();
+  });
+  EXPECT_EQ(text_of(told_ann_, SessionEvent::Kind::Floor), "Bob took \"leg\" away from you.");
+  EXPECT_EQ(ann_->sharing().holder_of(leg)->name, "Bob") << "who has it selected gets it";
+  EXPECT_FALSE(has(told_bob_, SessionEvent::Kind::Floor));
+  EXPECT_FALSE(ann_->history().extend(world::PlaceObject{leg, world::at(2, 0, 0)})) << "the drag ends";
+}
+
+TEST_F(Sharing, GetsWhatIsSelectedOnceItIsFree) {
+  const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg");
+  ann_->select({leg});
+  until([&] { return bob_->world().find(leg) && bob_->sharing().holder_of(leg).has_value(); });
+  bob_->select({leg});
+  ann_->select({});
+  until([&] { return ann_->sharing().holder_of(leg).has_value(); });
+}
+
+TEST_F(Sharing, HoldsAShapeThatOneChangesForAllItsUsers) {
+  const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg");
+  until_same();
+  const world::GeometryId shape = ann_->world().find(leg)->geometry;
+  ASSERT_TRUE(ann_->history().perform(world::ReplaceGeometry{shape, world::box(2.0)}, "Change size"));
+  until([&] {
+    return !bob_->history().try_out(world::ReplaceGeometry{shape, world::box(3.0)}, "Change size") ||
+           !bob_->history().take_back();
+  });
+  const auto changed = bob_->history().perform(world::ReplaceGeometry{shape, world::box(3.0)}, "Change size");
+  ASSERT_FALSE(changed);
+  EXPECT_TRUE(changed.error().message.starts_with("Ann holds"));
+  ann_->select({leg});
+  until([&] {
+    return bob_->history().perform(world::ReplaceGeometry{shape, world::box(3.0)}, "Change").has_value();
+  });
 }
 
 TEST_F(Sharing, ADragOfManyStepsIsOneActionAlsoWhileOthersWork) {
@@ -167,11 +213,15 @@ TEST_F(Sharing, GoesOnWithoutTheServerAndSendsWhatWasDoneWhenItIsBack) {
 
 /// Ann's connection is cut off alone: she is not asked to go on while Bob works.
 TEST_F(Sharing, LetsOneChooseWhereOthersChangedTheSameWhileThereWasNoConnection) {
-  const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg"), lamp = add_box(*ann_, world::at(1, 0, 0), "lamp"),
-                 vase = add_box(*ann_, world::at(2, 0, 0), "vase"), dish = add_box(*ann_, world::at(3, 0, 0), "dish");
+  const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg"),
+                 lamp = add_box(*ann_, world::at(1, 0, 0), "lamp"),
+                 vase = add_box(*ann_, world::at(2, 0, 0), "vase"),
+                 dish = add_box(*ann_, world::at(3, 0, 0), "dish");
   until_same();
   served_.stop();
-  until([&] { return has(told_ann_, SessionEvent::Kind::ServerLost) && has(told_bob_, SessionEvent::Kind::ServerLost); });
+  until([&] {
+    return has(told_ann_, SessionEvent::Kind::ServerLost) && has(told_bob_, SessionEvent::Kind::ServerLost);
+  });
   const auto move = [](Session& who, ObjectId id, double y) {
     ASSERT_TRUE(who.history().perform(world::PlaceObject{id, world::at(0, y, 0)}, "Move"));
   };
@@ -200,6 +250,40 @@ TEST_F(Sharing, LetsOneChooseWhereOthersChangedTheSameWhileThereWasNoConnection)
   EXPECT_EQ(bob_->world().roots().size(), 3U);
   EXPECT_EQ(y_of(leg), 2.0);
   EXPECT_EQ(y_of(dish), 0.0);
+}
+
+/// The journal keeps what the server has not got, and nothing once it has.
+TEST_F(Sharing, KeepsWorkWithoutAServerAgainstCrashes) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "icome_sharing_autosave";
+  std::filesystem::remove_all(folder);
+  SessionSettings settings = quiet_settings();
+  settings.autosave_folder = folder;
+  auto eve = start(std::move(settings));
+  eve->sharing().open(served_.link(Role::Edit));
+  run_until(*eve, [&] { return eve->sharing().state().has_value(); });
+  add_box(*eve, world::at(0, 0, 0), "kept by the server");
+  run_until(*eve, [&] { return eve->sharing().state()->unsent == 0; });
+  eve->settle();
+  EXPECT_TRUE(find_recoverable_work(folder).empty());
+  EXPECT_TRUE(!std::filesystem::exists(folder) || std::filesystem::is_empty(folder));
+  served_.stop();
+  run_until(*eve, [&] { return eve->sharing().state()->connection == ConversationState::Away; });
+  const ObjectId mine = add_box(*eve, world::at(1, 0, 0), "mine");
+  eve->settle();
+  eve.reset();  // as a crash does, it tells nobody
+  const auto works = find_recoverable_work(folder);
+  ASSERT_EQ(works.size(), 1U);
+  auto again = start([&] {
+    SessionSettings its = quiet_settings();
+    its.autosave_folder = folder;
+    return its;
+  }());
+  again->files().recover(works[0]);
+  run_until(*again, [&] { return again->world().find(mine) != nullptr; });
+  EXPECT_EQ(again->world().objects().size(), 2U);
+  again->files().close();
+  again.reset();
+  served_.start();
 }
 
 TEST_F(Sharing, WhoMayOnlyLookChangesNothing) {

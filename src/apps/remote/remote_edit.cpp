@@ -136,6 +136,21 @@ class RemoteScript {
     return operation == "select" || operation == "deselect" || operation == "take-away";
   }
 
+  /// Takes an object away, and waits until that is done.
+  base::Result<interaction::Performed> take_away(collab::Item item, world::ObjectId id) {
+    const auto fence = [&] {
+      const auto hold = talk_.holds().find(item);
+      return hold == talk_.holds().end() ? 0 : hold->second.fence;
+    };
+    const std::uint64_t before = fence();
+    if (before != 0) talk_.take_away(item);
+    const auto worked = connection_.work_until([&] { return before == 0 || fence() != before; }, interrupted,
+                                               kServerPatience);
+    if (!worked) return tl::unexpected(worked.error());
+    if (!*worked) return base::fail("interrupted");
+    return interaction::Performed{nullptr, {id}};
+  }
+
   /// Asks for an object, and waits for the answer; or gives it back, or takes it away from another.
   base::Result<interaction::Performed> hold(const Value::Fields& fields, const std::string& operation) {
     const Value* const object = interaction::field(fields, "object");
@@ -150,10 +165,11 @@ class RemoteScript {
     const collab::Item item = collab::item_of(*id);
     if (operation == "take-away" && talk_.role() < collab::Role::Own)
       return base::fail("take-away: only who has a link with the role own may take things away.");
-    if (operation != "select") {
-      operation == "deselect" ? talk_.deselect(item) : talk_.take_away(item);
+    if (operation == "deselect") {
+      talk_.deselect(item);
       return interaction::Performed{nullptr, {*id}};
     }
+    if (operation == "take-away") return take_away(item, *id);
     std::optional<collab::Selected> answer;
     talk_.select(item);
     const auto is_answered = [&] {

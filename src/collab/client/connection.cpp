@@ -89,7 +89,7 @@ base::Result<bool> Connection::work_until(const std::function<bool()>& done,
     const bool is_taken_over = talk_.how_ended() == Parting::ServerStops;
     const auto longest = is_taken_over ? std::max(patience, kTakeOver) : patience;
     if (talk_.state() == ConversationState::Away && now - last_live_ > longest.count())
-      return error(last_why_);
+      return error(last_why_.empty() ? "The server does not answer." : last_why_);
     network_->wait(kClientTick);
   }
 }

@@ -30,7 +30,7 @@ Conversation::Conversation(DesignAddress address, ClientIdentity identity, world
 // ---- the connection
 
 void Conversation::opened(std::int64_t now) {
-  now_ = now;
+  now_ = heard_at_ = now;
   connected_ = true;
   wants_to_close_ = said_bye_ = settled_ = false;
   outgoing_.clear();
@@ -65,7 +65,7 @@ void Conversation::closed(const std::string& why, std::int64_t now) {
 }
 
 void Conversation::received(std::string_view frame, std::int64_t now) {
-  now_ = now;
+  now_ = heard_at_ = now;
   // Own edits are taken back and redone once for all that a frame brings.
   const bool brings_much = frame.size() > kMuch && replica_.pending() > 0;
   if (brings_much)
@@ -267,7 +267,8 @@ base::Result<void> Conversation::resolve(std::span<const Choice> choices, world:
     if (choices[i] != Choice::Mine) note(replica_.give_up(conflicts[i].item));
   for (std::size_t i = 0; i < conflicts.size(); ++i) {
     const world::ObjectId object{conflicts[i].item.id};
-    if (choices[i] != Choice::Both || conflicts[i].item.kind != ItemKind::Object || !made.find(object)) continue;
+    if (choices[i] != Choice::Both || conflicts[i].item.kind != ItemKind::Object || !made.find(object))
+      continue;
     note(perform(copy_into(made, object, replica_.world(), ids), "Keep a copy"));
   }
   replica_.join_actions(actions_before_, "Work without the server");
@@ -349,7 +350,9 @@ void Conversation::hear(Living& message) { delay_ = now_ - std::int64_t(message.
 
 std::string Conversation::name_of(std::uint32_t author) const {
   const auto found = people_.find(author);
-  return found == people_.end() || found->second.name.empty() ? "Somebody" : found->second.name;
+  const bool has_name =
+      found != people_.end() && found->second.name.find_first_not_of(' ') != std::string::npos;
+  return has_name ? found->second.name : "Somebody";
 }
 
 std::vector<Seen> Conversation::take_seen() { return std::exchange(seen_, {}); }
@@ -418,7 +421,10 @@ void Conversation::deselect(Item item) {
   wanted_.erase(item);
   const auto found = holds_.find(item);
   if (found != holds_.end() && found->second.holder == replica_.author()) holds_.erase(found);
-  if (connected_ && welcome_) queue(Deselect{item});
+  if (!connected_ || !welcome_) return;
+  // Edits that were made under the hold go first.
+  if (state_ == ConversationState::Live && conflicts_.empty()) queue_edits();
+  queue(Deselect{item});
 }
 
 void Conversation::take_away(Item item) {
@@ -427,8 +433,14 @@ void Conversation::take_away(Item item) {
 
 void Conversation::present(const Whereabouts& where) { to_present_ = where; }
 
-void Conversation::say(const std::string& text) {
-  if (connected_ && welcome_) queue(Say{text});
+base::Result<void> Conversation::say(const std::string& text) {
+  if (state_ != ConversationState::Live)
+    return base::fail("There is no connection: say it again when the server is back.");
+  const std::int64_t until = std::max(said_until_, now_) + kLineTime;
+  if (until > now_ + kLinesAtOnce * kLineTime) return base::fail("That is much at a time: wait a moment.");
+  said_until_ = until;
+  queue(Say{text});
+  return {};
 }
 
 }  // namespace icome::collab

@@ -20,7 +20,7 @@ namespace icome::collab {
 struct ClientIdentity {
   std::string key = {};      // the same one is the same author to a server; nobody else should know it
   std::string name = {};     // of the person
-  std::uint32_t colour = 0;  // 0xRRGGBB; 0: the one of the author's number
+  std::uint32_t colour = 0;  // 0xRRGGBB; 0: the server chooses one that nobody else has
   std::string program = {};
   bool only_reads = false;  // nothing will be changed
 };
@@ -77,6 +77,9 @@ class Conversation {
   Parting how_ended() const { return parting_; }
   /// The part of the design that has come, in [0, 1].
   double progress() const;
+  /// ms since the server said anything, on the clock that the last call knew; it answers every two seconds or
+  /// so.
+  std::int64_t silence() const { return state_ == ConversationState::Live ? now_ - heard_at_ : 0; }
   /// ms there and back, of the last answer; nothing before the first.
   std::optional<std::int64_t> delay() const { return delay_; }
   Role role() const { return role_; }
@@ -113,7 +116,8 @@ class Conversation {
 
   // ---- people
   void present(const Whereabouts& where);
-  void say(const std::string& text);
+  /// Says something to all. Fails without a connection, and for more at a time than a server passes on.
+  base::Result<void> say(const std::string& text);
   const std::map<std::uint32_t, Person>& people() const { return people_; }
   /// Where the others were told to be, by author.
   struct Sighting {
@@ -185,10 +189,13 @@ class Conversation {
   bool settled_ = false;
   std::uint32_t lease_ = 0;      // ms
   std::int64_t alive_said_ = 0;  // ms
+  std::int64_t heard_at_ = 0;    // ms
+  std::int64_t said_until_ = 0;  // ms, until then there was enough to be said
   std::optional<std::int64_t> delay_;
 
   bool asks_for_choices_ = false;
-  std::optional<world::World> before_;  // as the server had it when the connection was lost; own edits are pending
+  std::optional<world::World>
+      before_;  // as the server had it when the connection was lost; own edits are pending
   std::size_t actions_before_ = 0;      // own ones, when the connection was lost
   std::vector<world::Edit> made_here_;  // of them, what was pending
   std::vector<Conflict> conflicts_;

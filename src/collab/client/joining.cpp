@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdlib>
 
 #include "base/version.h"
@@ -10,10 +9,6 @@
 
 namespace icome::collab {
 namespace {
-
-/// Can be told apart, also by people who see few colours, and seen on light and dark grounds (Okabe and Ito
-/// 2008, without black and yellow).
-constexpr std::array<std::uint32_t, 6> kColours{0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9};
 
 std::string person_of_this_machine() {
   for (const char* const name : {"ICOME_NAME", "USER", "LOGNAME"})
@@ -45,10 +40,6 @@ base::Result<DesignAddress> address_to_join(std::string_view text) {
   if (const char* const token = std::getenv("ICOME_TOKEN"); token != nullptr && address->token.empty())
     address->token = token;
   return address;
-}
-
-std::uint32_t shown_colour(const Person& person) {
-  return person.colour != 0 ? person.colour : kColours[person.author % kColours.size()];
 }
 
 }  // namespace icome::collab

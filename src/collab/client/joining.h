@@ -1,5 +1,4 @@
 #pragma once
-#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -18,9 +17,5 @@ base::Result<ClientIdentity> new_identity(const std::string& name = {});
 /// The address that a person gave; without a token it takes that of the environment variable ICOME_TOKEN, so
 /// that the secret need not stand among a process's arguments, which everybody can see.
 base::Result<DesignAddress> address_to_join(std::string_view text);
-
-/// The colour that a person is shown in, 0xRRGGBB: the chosen one, or that of the author's number, so that
-/// all see it alike and few share one.
-std::uint32_t shown_colour(const Person& person);
 
 }  // namespace icome::collab

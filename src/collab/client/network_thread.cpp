@@ -9,8 +9,9 @@ namespace {
 
 constexpr std::int64_t kShortestPause = 100;  // ms between two tries to connect; doubled each time
 constexpr std::int64_t kLongestPause = 2'000;
-constexpr std::size_t kMostFrames = 4;           // that wait to be sent
-constexpr std::size_t kMostBytes = 256U << 20U;  // of frames that wait for the owner
+constexpr std::chrono::milliseconds kSilence{10'000};  // a server answers every two seconds or so
+constexpr std::size_t kMostFrames = 4;                 // that wait to be sent
+constexpr std::size_t kMostBytes = 256U << 20U;        // of frames that wait for the owner
 
 }  // namespace
 
@@ -30,6 +31,7 @@ base::Result<std::unique_ptr<NetworkThread>> NetworkThread::create(const DesignA
 
 NetworkThread::NetworkThread(const DesignAddress& address) {
   settings_.endpoint = {address.host, address.port};
+  settings_.idle_time = kSilence;
   settings_.tls = address.fingerprint != kNoTls;
   if (settings_.tls) settings_.fingerprint = address.fingerprint;
 }

@@ -87,6 +87,8 @@ struct Present {
 struct Say {
   std::string text = {};
 };
+/// Who says more than so many lines at once, and then one for each such time (ms), is not heard.
+inline constexpr std::int64_t kLinesAtOnce = 10, kLineTime = 1'000;
 /// Keeps the holds alive, and measures the way there and back.
 struct Alive {
   std::uint64_t echo = 0;
@@ -175,6 +177,8 @@ struct FloorChanged {
 struct FloorState {
   std::vector<FloorChanged> holds = {};
 };
+/// From here on the numbers of those who only read, who are authors of nothing.
+inline constexpr std::uint32_t kFirstGuest = 1U << 24U;
 struct Person {
   std::uint32_t author = 0;
   std::string name = {};

@@ -170,7 +170,7 @@ class Hub {
   std::uint64_t revoked_version_ = ~std::uint64_t{0};
   std::set<std::string> revoked_;
   bool stops_ = false;
-  std::uint32_t next_guest_ = 1U << 24U;         // above all authors: who only reads
+  std::uint32_t next_guest_ = kFirstGuest;
   std::int64_t now_ = 0, at_ = 0;                // ms, of the last call that said so
   std::int64_t asked_for_revoked_ = -1'000'000;  // ms
   HubCounters counters_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <utility>
 
@@ -18,6 +19,9 @@ namespace {
 constexpr unsigned kFenceShift = 32;  // fences of holds count up from the server's own lease, shifted by this
 
 constexpr std::size_t kMostPersonBytes = 100;
+/// Of people: can be told apart, and from the orange of what is selected, on light and dark grounds.
+constexpr std::array<std::uint32_t, 8> kColours{0x0072b2, 0x009e73, 0xcc79a7, 0x56b4e9,
+                                                0x7b4fb5, 0xb5123e, 0x8a8a00, 0x00777b};
 constexpr std::size_t kMostChatBytes = 2'000;
 
 SharedBytes shared_bytes(const ServerMessage& message) {
@@ -84,6 +88,16 @@ base::Result<void> Room::replay(const RoomStart& start) {
 
 // ---- coming and going
 
+/// The first one that nobody else has who is here, for a person who has not chosen any.
+std::uint32_t Room::free_colour(std::uint32_t author) const {
+  const auto uses = [&](std::uint32_t colour) {
+    return std::ranges::count_if(authors_, [&](const auto& it) {
+      return it.first != author && it.second.person.here && it.second.person.colour == colour;
+    });
+  };
+  return *std::ranges::min_element(kColours, {}, uses);
+}
+
 void Room::join(LinkId link, const Arrival& arrival, std::int64_t now) {
   for (auto& [other, member] : members_)
     if (member.who.author == arrival.author)
@@ -91,8 +105,8 @@ void Room::join(LinkId link, const Arrival& arrival, std::int64_t now) {
   Author& author = authors_[arrival.author];
   author.last_number = std::max(author.last_number, arrival.last_number);
   author.last_word = now;
-  author.person = {arrival.author, plain_line(arrival.name, kMostPersonBytes), arrival.colour, arrival.role,
-                   true};
+  const std::uint32_t colour = arrival.colour != 0 ? arrival.colour : free_colour(arrival.author);
+  author.person = {arrival.author, plain_line(arrival.name, kMostPersonBytes), colour, arrival.role, true};
   Member& member = members_[link];
   member.who = arrival;
   member.known_number = author.last_number;
@@ -298,8 +312,6 @@ void Room::handle(Member& member, Present& message) {
 
 /// A few lines at once and then one a second: who says more is not heard, and nobody else suffers for it.
 void Room::handle(Member& member, Say& message) {
-  constexpr std::int64_t kLineTime = 1'000;  // ms
-  constexpr std::int64_t kLinesAtOnce = 10;
   member.said_until = std::max(member.said_until, now_) + kLineTime;
   if (member.said_until > now_ + kLinesAtOnce * kLineTime) {
     member.said_until -= kLineTime;

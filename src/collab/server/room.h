@@ -183,6 +183,7 @@ class Room {
   void tell_all(const ServerMessage& message, const Member* but = nullptr);
   void tell_free(const std::vector<Hold>& holds);
   void grant_waiting();
+  std::uint32_t free_colour(std::uint32_t author) const;
   void part(Member& member, const std::string& why, Parting code);
   void trim_tail();
   void add_waiting(Member& member, std::string& frame);

@@ -31,6 +31,7 @@ void SharedDesign::hold(std::span<const world::ObjectId> objects) {
   std::set<world::ObjectId> wanted;
   for (const world::ObjectId id : objects)
     if (wanted.size() < kMostHeld) wanted.insert(id);
+  for (const collab::Item item : std::exchange(besides_, {})) talk().deselect(item);
   // First what is given back: an object and one below it may be in each other's way.
   for (const world::ObjectId id : held_)
     if (!wanted.contains(id)) {
@@ -48,6 +49,23 @@ void SharedDesign::wait_for(world::ObjectId object) {
   talk().select(collab::item_of(object), true);
 }
 
+void SharedDesign::hold_for_action(collab::Item item) {
+  if (besides_.size() < kMostHeld && besides_.insert(item).second) talk().select(item);
+}
+
+void SharedDesign::ask_again(collab::Item freed) {
+  const world::World& world = talk().replica().world();
+  const world::ObjectId object{freed.id};
+  if (freed.kind != collab::ItemKind::Object || !world.find(object)) return;
+  for (const world::ObjectId id : held_) {
+    const auto hold = talk().holds().find(collab::item_of(id));
+    const bool is_mine = hold != talk().holds().end() && hold->second.holder == talk().replica().author();
+    if (is_mine || waited_.contains(collab::item_of(id)) || !world.find(id)) continue;
+    if (world::is_within(world, id, object) || world::is_within(world, object, id))
+      talk().select(collab::item_of(id));
+  }
+}
+
 void SharedDesign::add_line(SharedLine line) {
   line.number = ++lines_so_far_;
   lines_.push_back(std::move(line));
@@ -55,7 +73,8 @@ void SharedDesign::add_line(SharedLine line) {
 }
 
 void SharedDesign::note_person(const collab::Person& person) {
-  if (person.author == talk().replica().author()) return;
+  // Programs that only read come and go all the time.
+  if (person.author == talk().replica().author() || person.author >= collab::kFirstGuest) return;
   const bool changes = person.here ? here_.insert(person.author).second : here_.erase(person.author) > 0;
   if (changes) add_line({0, person.author, person.name, person.here ? "is here" : "has left", false});
 }

@@ -35,6 +35,8 @@ class SharedDesign {
     std::string name;
   };
   std::optional<Tried> tried = {};
+  /// The journal against crashes keeps the design, as the server may not have all of it.
+  bool is_journalled = false;
   /// The last action may be gone on with.
   bool goes_on = false;
 
@@ -42,6 +44,10 @@ class SharedDesign {
   void hold(std::span<const world::ObjectId> objects);
   /// Asks for one, even if others are before.
   void wait_for(world::ObjectId object);
+  /// Asks for a thing besides, which an action changes, until other objects are held.
+  void hold_for_action(collab::Item item);
+  /// Asks once more for objects that were refused because of a thing which is free now.
+  void ask_again(collab::Item freed);
   /// Was this waited for, and not heard of yet?
   bool take_waited(collab::Item item) { return waited_.erase(item) > 0; }
   /// Another took it away: was it asked for?
@@ -66,7 +72,8 @@ class SharedDesign {
   Way way_;
   std::set<world::ObjectId> held_;  // or asked for
   std::set<collab::Item> waited_;
-  std::set<std::uint32_t> here_;  // others, as the lines say
+  std::set<collab::Item> besides_;  // shapes and other things of the last actions
+  std::set<std::uint32_t> here_;    // others, as the lines say
   std::deque<SharedLine> lines_;
   std::uint64_t lines_so_far_ = 0;
 };

@@ -21,7 +21,7 @@ void AutosaveKeeper::follow(const Edited& edited, Time now) {
     replace(edited, now);
   } else {
     if (edited.edit) edit(edited, now);
-    if (edited.saved) note_saved(*edited.saved);
+    if (edited.saved) note_saved(*edited.saved, now);
   }
 }
 
@@ -33,7 +33,6 @@ void AutosaveKeeper::replace(const Edited& edited, Time now) {
   last_edit_ = 0;
   design_.clear();
   by_server_ = edited.saved && edited.saved->by_server;
-  if (by_server_) apart_ = {};
   if (!edited.saved || by_server_) return;
   design_ = edited.saved->design;
   recovered_ = edited.saved->recovered;
@@ -41,8 +40,16 @@ void AutosaveKeeper::replace(const Edited& edited, Time now) {
   if (unsaved_) try_to_keep(now);
 }
 
-void AutosaveKeeper::note_saved(const SavedWork& saved) {
-  if (by_server_ || saved.number < whole_) return;  // the latter is of a world that is gone
+void AutosaveKeeper::note_saved(const SavedWork& saved, Time now) {
+  if (saved.number < whole_) return;  // of a world that is gone
+  if (by_server_ != saved.by_server) {
+    by_server_ = saved.by_server;
+    unsaved_ = !by_server_;
+    if (unsaved_) return try_to_keep(now);
+    if (follows_) part();
+    return discard();
+  }
+  if (by_server_) return;
   design_ = saved.design;
   if (last_edit_ <= saved.number && !saved.in_part) {
     if (follows_) part();
@@ -54,7 +61,10 @@ void AutosaveKeeper::note_saved(const SavedWork& saved) {
 }
 
 void AutosaveKeeper::edit(const Edited& edited, Time now) {
-  if (by_server_) return;
+  if (by_server_) {
+    apply_apart(edit_for_replicas(edited));
+    return;
+  }
   last_edit_ = edited.number;
   unsaved_ = true;
   if (lost_) return;

@@ -36,7 +36,7 @@ class AutosaveKeeper {
 
  private:
   void replace(const Edited& edited, Time now);
-  void note_saved(const SavedWork& saved);
+  void note_saved(const SavedWork& saved, Time now);
   void edit(const Edited& edited, Time now);
   void apply_apart(const world::Edit& edit);
   void part();

@@ -34,6 +34,7 @@ OperationPreview::OperationPreview(session::Session& session, std::function<void
     if (!state || state->busy || !state->shown) return;
     if (changes && session.history().trying()) {  // others have changed a shared design below it
       state->shown->without = session.sharing().design();
+      state->shown->is_stale = true;
       return;
     }
     const Shown shown = *std::exchange(state->shown, std::nullopt);
@@ -53,7 +54,8 @@ const world::World& OperationPreview::world() const {
 base::Result<std::string> OperationPreview::show(const Operation& operation, const Value::Fields& fields) {
   const std::shared_ptr<State> state = state_;
   std::optional<Shown>& shown = state->shown;
-  if (shown && shown->operation == &operation && shown->fields == fields) return shown->note;
+  if (shown && !shown->is_stale && shown->operation == &operation && shown->fields == fields)
+    return shown->note;
   auto plan =
       interaction::plan_operation(operation, fields, world(), session_.ids(), picture_reader(session_));
   if (!plan) return tl::unexpected(plan.error());
@@ -66,6 +68,7 @@ base::Result<std::string> OperationPreview::show(const Operation& operation, con
     return tl::unexpected(tried.error());
   }
   shown->operation = &operation;
+  shown->is_stale = false;
   shown->fields = fields;
   shown->objects = std::move(plan->objects);
   shown->note = std::move(plan->note);
@@ -88,6 +91,10 @@ void OperationPreview::take_back() {
 
 void OperationPreview::keep() {
   const std::shared_ptr<State> state = state_;
+  if (!shown()) return;
+  // What is kept is made of what is there now.
+  if (state->shown->is_stale && state->shown->operation != nullptr)
+    (void)show(*state->shown->operation, interaction::Value::Fields(state->shown->fields));
   if (!shown()) return;
   const Busy busy(state->busy);
   const Shown shown = *std::exchange(state->shown, std::nullopt);

@@ -48,6 +48,7 @@ class OperationPreview {
     interaction::Value::Fields fields = {};
     std::vector<world::ObjectId> objects = {};
     std::string note = {};
+    bool is_stale = false;  // others have changed the world below it
   };
   struct State {
     std::optional<Shown> shown = {};

@@ -6,6 +6,7 @@
 #include <QPainter>
 #include <QPlainTextEdit>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QTimer>
 #include <QVBoxLayout>
 
@@ -20,9 +21,10 @@ using Connection = collab::ConversationState;
 
 namespace {
 
-constexpr int kEvery = 100;        // ms, between two looks
-constexpr int kMostHeldNames = 3;  // of what somebody holds
-constexpr int kMostSaid = 2'000;   // bytes that a server passes on
+constexpr int kEvery = 100;                   // ms, between two looks
+constexpr std::int64_t kLongSilence = 5'000;  // ms; a server answers every two seconds or so
+constexpr int kMostHeldNames = 3;             // of what somebody holds
+constexpr int kMostSaid = 2'000;              // bytes that a server passes on
 constexpr int kAuthorRole = Qt::UserRole;
 
 QString held_words(const session::Session& session, const SessionSharing::Colleague& person) {
@@ -64,6 +66,8 @@ QString sharing_words(const session::Session& session) {
   const QString waits = state->unsent == 0 ? QString() : QString(", %L1 to send").arg(state->unsent);
   if (state->connection == Connection::Away) return name + ": no connection" + waits;
   if (state->connection == Connection::Joining) return name + ": connecting" + waits;
+  if (state->silence > kLongSilence)
+    return QString("%1: no answer for %2 s").arg(name).arg(state->silence / 1'000) + waits;
   const auto people = session.sharing().people().size();
   const QString delay = state->delay ? QString(", %1 ms").arg(*state->delay) : QString();
   return QString("%1: %2%3")
@@ -77,11 +81,14 @@ QString sharing_tip(const session::Session& session) {
   QString text = one_line(state->address) + "\n";
   if (state->connection != Connection::Live) {
     text += "There is no connection: " + one_line(state->why) +
-            "\nYou can go on: what you do is sent when the server is back.";
+            (state->role == collab::Role::View
+                 ? QString()
+                 : QString("\nYou can go on: what you do is sent when the server is back."));
   } else {
+    if (state->silence > kLongSilence)
+      text += QString("The server has not answered for %1 s.\n").arg(state->silence / 1'000);
     text += state->delay ? QString("Answers come after %1 ms.").arg(*state->delay) : QString("Connected.");
-    text += state->unsent == 0 ? QString("\nThe server has kept all that you did.")
-                               : QString("\n%L1 of your edits are under way.").arg(state->unsent);
+    if (state->unsent > 0) text += QString("\n%L1 of your edits are under way.").arg(state->unsent);
   }
   if (state->role == collab::Role::View) text += "\nYou may look at it, but not change it.";
   return text;
@@ -103,6 +110,7 @@ struct SharingPanel::Parts {
   QListWidget* people;
   QPlainTextEdit* words;
   QLineEdit* line;
+  WrappedLabel* remark;  // why something could not be said
   QTimer* timer;
   std::uint64_t last_line = 0;
   QStringList shown_people;
@@ -116,6 +124,7 @@ SharingPanel::Parts::Parts(session::Session& of, Hooks its_hooks, SharingPanel& 
       people(new QListWidget(&panel)),
       words(new QPlainTextEdit(&panel)),
       line(new QLineEdit(&panel)),
+      remark(new WrappedLabel("", &panel)),
       timer(new QTimer(&panel)) {
   auto* column = new QVBoxLayout(&panel);
   column->setContentsMargins(2 * kGrid, 2 * kGrid, 2 * kGrid, 2 * kGrid);
@@ -123,6 +132,8 @@ SharingPanel::Parts::Parts(session::Session& of, Hooks its_hooks, SharingPanel& 
   for (QWidget* it : std::initializer_list<QWidget*>{state, open, people}) column->addWidget(it);
   column->addWidget(words, 1);
   column->addWidget(line);
+  column->addWidget(remark);
+  remark->hide();
   state->setObjectName("sharing.state");
   open->setObjectName("sharing.open");
   people->setObjectName("sharing.people");
@@ -188,8 +199,10 @@ void SharingPanel::Parts::show_lines() {
     if (it.number <= last_line) continue;
     last_line = it.number;
     const QString name = shortened(one_line(it.name));
+    const bool is_at_end = words->verticalScrollBar()->value() == words->verticalScrollBar()->maximum();
     words->appendPlainText(it.is_said ? name + ": " + QString::fromStdString(it.text)
                                       : name + " " + QString::fromStdString(it.text));
+    if (is_at_end) words->verticalScrollBar()->setValue(words->verticalScrollBar()->maximum());
   }
 }
 
@@ -201,8 +214,10 @@ void SharingPanel::Parts::follow(const QListWidgetItem& item) {
 }
 
 void SharingPanel::Parts::say() {
-  session.sharing().say(line->text().toStdString());
-  line->clear();
+  const auto said = session.sharing().say(line->text().toStdString());
+  remark->setVisible(!said);
+  if (said) return line->clear();
+  remark->say(one_line(said.error().message));
 }
 
 SharingPanel::SharingPanel(session::Session& session, Hooks hooks, QWidget* parent)

@@ -136,6 +136,9 @@ Note note_of(const SessionEvent& event) {
       note.weight = Weight::Error;
       note.remedies = {Remedy::SaveAs};
       break;
+    case SessionEvent::Kind::Floor:
+      note.topic = "floor";
+      break;
     case SessionEvent::Kind::Conflicts:
       note.topic = "conflicts";
       note.weight = Weight::Warning;
