@@ -26,8 +26,8 @@ class SessionFiles {
   void cancel_open();
   /// The part that is done, [0, 1], while a design is being read.
   std::optional<double> opening() const;
-  /// Starts reading a design that was made alone, to be put into this one: its roots come under `parent`, or to
-  /// the top, with all that they share, by one action. Where the parent is gone by then, to the top.
+  /// Starts reading a design that was made alone, to be put into this one: its roots come under `parent`, or
+  /// to the top, with all that they share, by one action. Where the parent is gone by then, to the top.
   void integrate(const std::filesystem::path& design, world::ObjectId parent);
   /// A design to be put into this one is being read.
   bool integrating() const;

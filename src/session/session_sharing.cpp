@@ -154,11 +154,7 @@ void SessionParts::begin_sharing(std::unique_ptr<collab::Connection> connection)
   shared = std::make_unique<SharedDesign>(std::move(connection));
   const collab::Replica& replica = shared->talk().replica();
   ids = world::IdSource(replica.author(), world.next_number(replica.author()));
-  Edited edited;
-  edited.whole = std::make_shared<const world::World>(world);
-  edited.saved =
-      std::make_shared<const SavedWork>(SavedWork{.number = queue.posted() + 1, .by_server = true});
-  opened_number = queue.post(std::move(edited));
+  keep_against_crashes(false);
   for (const collab::Seen& it : shared->talk().take_seen())
     if (const auto* const person = std::get_if<collab::Person>(&it); person && person->here)
       SharedNews (*this)(*person);

@@ -38,8 +38,7 @@ collab::Role role_of(const std::string& word) {
 }
 
 /// Host, port and fingerprint of the address.
-base::Result<collab::DesignAddress> place_of(const ServingOptions& options,
-                                             const collab::Store& store) {
+base::Result<collab::DesignAddress> place_of(const ServingOptions& options, const collab::Store& store) {
   const auto served = store.address();
   if (!served) return tl::unexpected(served.error());
   collab::DesignAddress address;

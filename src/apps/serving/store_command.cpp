@@ -25,8 +25,8 @@ base::Result<int> list_designs(const collab::Store& store, bool json) {
   const auto designs = (*log)->designs();
   if (!designs) return tl::unexpected(designs.error());
   Json report{{"store", store.shown()}, {"designs", Json::array()}};
-  std::string text = fmt::format("{}: {} design{}\n", store.shown(), designs->size(),
-                                 designs->size() == 1 ? "" : "s");
+  std::string text =
+      fmt::format("{}: {} design{}\n", store.shown(), designs->size(), designs->size() == 1 ? "" : "s");
   for (const collab::DesignRow& row : *designs) {
     report["designs"].push_back({{"name", row.name},
                                  {"sequence", row.sequence},

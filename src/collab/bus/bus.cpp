@@ -7,12 +7,12 @@
 namespace icome::collab {
 namespace {
 
-constexpr std::int64_t kConnecting = 3'000;      // ms
-constexpr std::int64_t kReconnectPause = 250;    // ms
-constexpr std::int64_t kPing = 2'000;            // ms between two looks whether the connection still stands
-constexpr int kPingsUnanswered = 2;              // after which it does not
-constexpr int kKeptBytes = 8 << 20;              // of what is published without a connection
-constexpr int kMostWaiting = 65'536;             // messages that were not taken in yet
+constexpr std::int64_t kConnecting = 3'000;    // ms
+constexpr std::int64_t kReconnectPause = 250;  // ms
+constexpr std::int64_t kPing = 2'000;          // ms between two looks whether the connection still stands
+constexpr int kPingsUnanswered = 2;            // after which it does not
+constexpr int kKeptBytes = 8 << 20;            // of what is published without a connection
+constexpr int kMostWaiting = 65'536;           // messages that were not taken in yet
 constexpr int kMostWaitingBytes = 64 << 20;
 
 template <typename Handle, void (*Destroy)(Handle*)>
@@ -21,7 +21,8 @@ struct Destroyer {
 };
 using BusOptions = std::unique_ptr<natsOptions, Destroyer<natsOptions, natsOptions_Destroy>>;
 using BusConnection = std::unique_ptr<natsConnection, Destroyer<natsConnection, natsConnection_Destroy>>;
-using BusSubscription = std::unique_ptr<natsSubscription, Destroyer<natsSubscription, natsSubscription_Destroy>>;
+using BusSubscription =
+    std::unique_ptr<natsSubscription, Destroyer<natsSubscription, natsSubscription_Destroy>>;
 
 /// "nats://ann:secret@host:4222" without what stands before the '@'.
 std::string without_password(const std::string& address) {
@@ -66,7 +67,8 @@ base::Result<std::unique_ptr<Bus>> Bus::connect(const std::string& address,
   if (!address.starts_with("nats://") && !address.starts_with("tls://"))
     return base::fail(place + ": is no address of a bus; it looks like nats://HOST:4222.");
   natsOptions* made = nullptr;
-  if (const auto done = done_or_why(natsOptions_Create(&made), place); !done) return tl::unexpected(done.error());
+  if (const auto done = done_or_why(natsOptions_Create(&made), place); !done)
+    return tl::unexpected(done.error());
   const BusOptions options(made);
   for (const natsStatus status :
        {natsOptions_SetURL(made, address.c_str()), natsOptions_SetTimeout(made, kConnecting),
@@ -88,8 +90,8 @@ base::Result<std::unique_ptr<Bus>> Bus::connect(const std::string& address,
 
 base::Result<void> Bus::listen(const std::string& subject) {
   natsSubscription* made = nullptr;
-  const natsStatus status = natsConnection_Subscribe(&made, parts_->connection.get(), subject.c_str(), Parts::take,
-                                                     parts_.get());
+  const natsStatus status =
+      natsConnection_Subscribe(&made, parts_->connection.get(), subject.c_str(), Parts::take, parts_.get());
   if (const auto done = done_or_why(status, parts_->place); !done) return done;
   parts_->subscriptions.emplace_back(made);
   return done_or_why(natsSubscription_SetPendingLimits(made, kMostWaiting, kMostWaitingBytes), parts_->place);

@@ -341,6 +341,7 @@ void Conversation::hear(People& message) {
     if (!person.here) sightings_.erase(person.author);
     if (person.author == replica_.author()) role_ = person.role;
     seen_.emplace_back(person);
+    if (!person.here && person.author >= kFirstGuest) people_.erase(person.author);  // who never comes again
   }
 }
 

@@ -33,7 +33,8 @@ bool same_fixture(ObjectId id, const world::PhysicalObject& a, const world::Phys
 }
 
 bool same_motion(ObjectId id, const world::PhysicalObject& a, const world::PhysicalObject& b) {
-  return a.motion == b.motion || same_bytes(world::ChangeMotion{id, a.motion}, world::ChangeMotion{id, b.motion});
+  return a.motion == b.motion ||
+         same_bytes(world::ChangeMotion{id, a.motion}, world::ChangeMotion{id, b.motion});
 }
 
 bool same_texture(const world::Texture& a, const world::Texture& b) {
@@ -91,7 +92,8 @@ class Copying {
     if (!design_.find(object.material)) object.material = {};
     const auto fresh = ids_.next<ObjectId>();
     edits_.emplace_back(world::CreateObject{fresh, place, std::move(object)});
-    for (std::size_t i = 0; i < children.size(); ++i) add(children[i], fresh, i, model_.find(children[i])->name);
+    for (std::size_t i = 0; i < children.size(); ++i)
+      add(children[i], fresh, i, model_.find(children[i])->name);
   }
   world::Edit take() { return world::EditGroup{std::move(edits_)}; }
 

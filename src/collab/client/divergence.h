@@ -25,8 +25,8 @@ std::vector<Conflict> conflicts_of(std::span<const world::Edit> own, const world
                                    const world::World& now);
 
 /// The edit that puts an object of another world, with all below it and shapes of its own, into a design as a
-/// new one: beside where it was, or as a root where its parent is gone. Materials that the design does not have
-/// are left out. Precondition: the object is in `model`.
+/// new one: beside where it was, or as a root where its parent is gone. Materials that the design does not
+/// have are left out. Precondition: the object is in `model`.
 world::Edit copy_into(const world::World& model, world::ObjectId object, const world::World& design,
                       world::IdSource& ids);
 

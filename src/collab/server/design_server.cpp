@@ -60,8 +60,8 @@ base::Result<StoreFolder> files_of(const ServeSettings& settings, const Store& s
   return StoreFolder::make(usual->parent_path() / "server");
 }
 
-/// Names this server in leases. The lock of a folder proves that no other server has the designs in it; before a
-/// database each run has a name of its own.
+/// Names this server in leases. The lock of a folder proves that no other server has the designs in it;
+/// before a database each run has a name of its own.
 base::Result<std::string> holder_of(const Store& store) {
   if (!store.is_database()) return kEmbeddedHolder;
   const auto bytes = random_bytes(16);
@@ -131,10 +131,11 @@ DesignServer::DesignServer(const StoreFolder& files, io::OpenFile lock, const To
     : folder_(files.path()),
       shown_store_(std::move(shown_store)),
       lock_(std::move(lock)),
-      hub_(settings, signer, factory_, [this](const AuditRow& row) { write_audit(row); },
-           [this](LinkId link, const std::string& server, std::string_view hello) {
-             return pass_on(link, server, hello);
-           }),
+      hub_(
+          settings, signer, factory_, [this](const AuditRow& row) { write_audit(row); },
+          [this](LinkId link, const std::string& server, std::string_view hello) {
+            return pass_on(link, server, hello);
+          }),
       relays_({settings.holder, signer.derived_key("bus")}, *this),
       audit_(std::fopen(files.audit().c_str(), "ae")),
       started_(steady_milliseconds()) {}

@@ -22,10 +22,11 @@ namespace icome::collab {
 /// How a server serves.
 struct ServeSettings {
   std::string store = {};  // as Store::make() reads it
-  /// Where a server of a database keeps files of its own: certificate, audit log; empty: the usual folder. The
-  /// files of a store in a folder are there.
+  /// Where a server of a database keeps files of its own: certificate, audit log; empty: the usual folder.
+  /// The files of a store in a folder are there.
   std::filesystem::path files = {};
-  std::string bus = {};  // "nats://HOST:PORT", by which servers before one database pass clients on; empty: none
+  std::string bus =
+      {};  // "nats://HOST:PORT", by which servers before one database pass clients on; empty: none
   Endpoint listen = {};
   std::filesystem::path certificate =
       {};  // PEM, with `key`; empty: the store's own, made where there is none
@@ -37,9 +38,10 @@ struct ServeSettings {
   HubSettings hub = {};
 };
 
-/// A server of the designs in a store: sockets, threads and clocks around a Hub. It has a folder for itself; a
-/// database it shares with other servers, each design being one's at a time, and passes clients on to the one
-/// that has their design. Owns everything. run() is the only thread that works with it, but for the log's own.
+/// A server of the designs in a store: sockets, threads and clocks around a Hub. It has a folder for itself;
+/// a database it shares with other servers, each design being one's at a time, and passes clients on to the
+/// one that has their design. Owns everything. run() is the only thread that works with it, but for the log's
+/// own.
 class DesignServer final : private LinkEvents, private RelayEvents {
  public:
   /// Listens when it returns. Fails with a sentence that names the folder, the file or the address.

@@ -10,10 +10,10 @@
 namespace icome::collab {
 namespace {
 
-constexpr std::size_t kMostPart = 512U << 10U;     // bytes of a frame in one message; NATS takes a megabyte
-constexpr std::size_t kMostFrame = 80U << 20U;     // bytes
+constexpr std::size_t kMostPart = 512U << 10U;  // bytes of a frame in one message; NATS takes a megabyte
+constexpr std::size_t kMostFrame = 80U << 20U;  // bytes
 constexpr std::size_t kSignatureBytes = 16;
-constexpr std::size_t kLongestName = 255;          // of a server
+constexpr std::size_t kLongestName = 255;  // of a server
 constexpr const char* kServerGone = "The server that has the design does not answer.";
 
 void add_number(std::string& bytes, std::uint64_t number) {
@@ -56,11 +56,13 @@ bool Relays::pass_on(LinkId client, const std::string& server, std::string_view 
 }
 
 void Relays::from_client(LinkId client, std::string_view frame) {
-  if (const auto found = clients_.find(client); found != clients_.end()) say_frame(found->second, true, frame);
+  if (const auto found = clients_.find(client); found != clients_.end())
+    say_frame(found->second, true, frame);
 }
 
 void Relays::client_sent(LinkId client) {
-  if (const auto found = clients_.find(client); found != clients_.end()) say(found->second, true, Kind::Sent, {});
+  if (const auto found = clients_.find(client); found != clients_.end())
+    say(found->second, true, Kind::Sent, {});
 }
 
 void Relays::client_closed(LinkId client) {
@@ -176,7 +178,8 @@ void Relays::hear_as_client(const Message& message) {
   bool is_broken = false;
   auto frame = whole_frame(found->second, message, is_broken);
   if (is_broken) return break_client(message.client, "A message between two servers was lost.");
-  if (frame) return events_.client_frame(message.client, std::make_shared<const std::string>(std::move(*frame)));
+  if (frame)
+    return events_.client_frame(message.client, std::make_shared<const std::string>(std::move(*frame)));
   if (message.kind != Kind::End) return;
   clients_.erase(found);
   events_.client_ends(message.client, message.payload);
@@ -197,7 +200,8 @@ void Relays::hear_as_guest(const Message& message) {
   if (known == guest_names_.end()) {
     // Of a relay that has ended here: the other end goes, too.
     if (message.kind != Kind::End)
-      say(message.from, {Kind::End, {}, message.client, false, 0, "The connection between two servers was lost."});
+      say(message.from,
+          {Kind::End, {}, message.client, false, 0, "The connection between two servers was lost."});
     return;
   }
   const LinkId guest = known->second;

@@ -32,7 +32,8 @@ class RelayEvents {
 
 /// Passes clients of one server on to the one that has their design, over a bus that may lose messages: each
 /// message of a relay has a number and is signed, and a relay with a gap, or with a server that is silent,
-/// ends; its client connects again and goes on. No sockets, threads and clocks: `now` is ms on a steady clock.
+/// ends; its client connects again and goes on. No sockets, threads and clocks: `now` is ms on a steady
+/// clock.
 class Relays {
  public:
   struct Settings {
@@ -80,10 +81,10 @@ class Relays {
   };
   /// One end of a relay.
   struct End {
-    std::string server;         // that has the other
-    LinkId client = 0;          // as there or here
+    std::string server;  // that has the other
+    LinkId client = 0;   // as there or here
     std::uint64_t said = 0, heard = 0;
-    std::string parts;          // of a frame, that have come
+    std::string parts;  // of a frame, that have come
   };
   using GuestName = std::pair<std::string, LinkId>;  // the server, and its number for the client
 
@@ -95,7 +96,8 @@ class Relays {
   void open_guest(const Message& message);
   void hear_as_client(const Message& message);
   void hear_as_guest(const Message& message);
-  /// A whole frame, when its last part has come; nothing before. Nothing more comes of a relay that is broken.
+  /// A whole frame, when its last part has come; nothing before. Nothing more comes of a relay that is
+  /// broken.
   std::optional<std::string> whole_frame(End& end, const Message& message, bool& is_broken);
   void break_client(LinkId client, const std::string& why);
   void break_guest(LinkId guest);

@@ -110,11 +110,10 @@ constexpr PostgresStatement kWriteNote{
 constexpr PostgresStatement kReadNote{"read_note", "SELECT bytes FROM icome.notes WHERE name = $1"};
 
 constexpr PostgresStatement kAll[] = {
-    kAllDesigns,      kFindDesign,     kLockDesign, kLockDesigns, kInsertDesign, kUpdateLease,
-    kUpdateSequences, kInsertEdits,    kReadEdits,  kBytesBehind, kForgetEdits,  kReadSnapshot,
-    kWriteSnapshot,   kUpdateSnapshot, kTakeTime,   kFindAuthor,  kInsertAuthor, kCountAuthors,
-    kLockRevoked,     kInsertRevoked,  kAllRevoked, kLastRevoked, kInsertNote,   kWriteNote,
-    kReadNote};
+    kAllDesigns,  kFindDesign, kLockDesign,   kLockDesigns,  kInsertDesign, kUpdateLease,   kUpdateSequences,
+    kInsertEdits, kReadEdits,  kBytesBehind,  kForgetEdits,  kReadSnapshot, kWriteSnapshot, kUpdateSnapshot,
+    kTakeTime,    kFindAuthor, kInsertAuthor, kCountAuthors, kLockRevoked,  kInsertRevoked, kAllRevoked,
+    kLastRevoked, kInsertNote, kWriteNote,    kReadNote};
 
 }  // namespace statements
 

@@ -41,7 +41,6 @@ std::optional<std::string_view> take_line(std::string_view& text, std::string_vi
   return value;
 }
 
-
 /// Others who may write to the folder could put their own key in the place of the one that signs invitations.
 base::Result<void> demand_own_folder(const std::filesystem::path& path) {
   struct stat status {};

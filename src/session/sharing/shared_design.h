@@ -36,7 +36,7 @@ class SharedDesign {
   };
   std::optional<Tried> tried = {};
   /// The journal against crashes keeps the design, as the server may not have all of it.
-  bool is_journalled = false;
+  bool is_journalled = true;
   /// The last action may be gone on with.
   bool goes_on = false;
 

@@ -48,8 +48,9 @@ void FileActions::fill(QMenu& menu) {
   recent_menu_->setObjectName("file.recent");
   QObject::connect(recent_menu_, &QMenu::aboutToShow, &window_, [this] { fill_recent(); });
   recent_menu_->setEnabled(!recent_.paths().isEmpty());
-  add_action(menu, "file.integrate", "&Integrate a Design\u2026", {}, [this] { choose_and_integrate(); })
-      ->setStatusTip("Puts all of another design into this one, under the selected object");
+  add_action(menu, "file.integrate", "&Integrate a Design\u2026", {}, [this] {
+    choose_and_integrate();
+  })->setStatusTip("Puts all of another design into this one, under the selected object");
   menu.addSeparator();
   save_ = add_action(menu, "file.save", "&Save", QKeySequence::Save, [this] { save(); });
   save_->setIcon(icon(Icon::Save));

@@ -20,7 +20,8 @@ using session::SessionSharing;
 namespace {
 
 constexpr const char* kWords =
-    "These were changed both by you and by others while there was no connection. What you choose for all of them "
+    "These were changed both by you and by others while there was no connection. What you choose for all of "
+    "them "
     "is one action, which can be undone.";
 
 void add_choices(QComboBox& box, const SessionSharing::Conflict& conflict) {
@@ -28,13 +29,14 @@ void add_choices(QComboBox& box, const SessionSharing::Conflict& conflict) {
               int(Choice::Theirs));
   if (!conflict.is_gone) box.addItem("yours: what they did to it is replaced", int(Choice::Mine));
   if (conflict.object)
-    box.addItem(conflict.is_gone ? "yours, as a new object" : "both: yours beside theirs, as a copy", int(Choice::Both));
+    box.addItem(conflict.is_gone ? "yours, as a new object" : "both: yours beside theirs, as a copy",
+                int(Choice::Both));
 }
 
 }  // namespace
 
-ConflictDialog::ConflictDialog(session::Session& session, std::function<void(const base::Result<void>&)> chosen,
-                               QWidget* parent)
+ConflictDialog::ConflictDialog(session::Session& session,
+                               std::function<void(const base::Result<void>&)> chosen, QWidget* parent)
     : QDialog(parent), session_(session), chosen_(std::move(chosen)) {
   setObjectName("conflicts");
   setWindowTitle("Yours and Theirs");
@@ -65,7 +67,8 @@ ConflictDialog::ConflictDialog(session::Session& session, std::function<void(con
   auto* all_mine = buttons->addButton("All &Yours", QDialogButtonBox::ActionRole);
   auto* all_both = buttons->addButton("&Both of All", QDialogButtonBox::ActionRole);
   auto* later = buttons->addButton("&Later", QDialogButtonBox::RejectRole);
-  later->setToolTip("Nothing of what you did is sent until you have chosen: the message above the scene leads back");
+  later->setToolTip(
+      "Nothing of what you did is sent until you have chosen: the message above the scene leads back");
   rows->addWidget(buttons);
   connect(all_theirs, &QPushButton::clicked, this, [this] { choose_all(int(Choice::Theirs)); });
   connect(all_mine, &QPushButton::clicked, this, [this] { choose_all(int(Choice::Mine)); });

@@ -14,7 +14,8 @@ namespace icome::ui {
 class ConflictDialog final : public QDialog {
  public:
   /// `chosen` hears how what was chosen went.
-  ConflictDialog(session::Session& session, std::function<void(const base::Result<void>&)> chosen, QWidget* parent);
+  ConflictDialog(session::Session& session, std::function<void(const base::Result<void>&)> chosen,
+                 QWidget* parent);
 
  private:
   void choose_all(int choice);

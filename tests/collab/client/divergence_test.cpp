@@ -33,7 +33,8 @@ class DivergenceTest : public testing::Test {
 };
 
 TEST_F(DivergenceTest, IsWhereBothChangedTheSameSideOfAThing) {
-  const std::vector<world::Edit> own{world::PlaceObject{leg_, at(1, 0, 0)}, world::RenameObject{lamp_, "light"},
+  const std::vector<world::Edit> own{world::PlaceObject{leg_, at(1, 0, 0)},
+                                     world::RenameObject{lamp_, "light"},
                                      world::PlaceObject{leg_, at(2, 0, 0)}};
   EXPECT_TRUE(conflicts(own).empty());
   others(world::RenameObject{leg_, "foot"});

@@ -16,7 +16,9 @@ struct Station final : RelayEvents {
                    const std::string& key = "the key of the store")
       : bus(its_bus), relays({id, key}, *this) {}
 
-  void publish(const std::string& server, std::string bytes) override { bus.emplace_back(server, std::move(bytes)); }
+  void publish(const std::string& server, std::string bytes) override {
+    bus.emplace_back(server, std::move(bytes));
+  }
   void guest_opened(LinkId guest, const std::string&) override { guests.push_back(guest); }
   void guest_received(LinkId, std::string_view frame) override { from_guest.emplace_back(frame); }
   void guest_sent(LinkId) override { ++sent; }

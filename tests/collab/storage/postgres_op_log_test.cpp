@@ -7,9 +7,9 @@
 #include <thread>
 
 #include "base/clock.h"
-#include "collab/storage/store.h"
 #include "collab/storage/sample_log.h"
 #include "collab/storage/shared_postgres.h"
+#include "collab/storage/store.h"
 
 namespace icome::collab {
 namespace {
@@ -424,7 +424,8 @@ TEST_F(PostgresOpLogTest, IsWhatTheAddressOfADatabaseMeans) {
 }
 
 TEST(Store, IsShownWithoutItsSecrets) {
-  EXPECT_EQ(good(Store::open("postgresql://ann:p@ss@db:5432/icome?password=x")).shown(), "postgresql://db:5432/icome");
+  EXPECT_EQ(good(Store::open("postgresql://ann:p@ss@db:5432/icome?password=x")).shown(),
+            "postgresql://db:5432/icome");
   EXPECT_EQ(good(Store::open("postgres:///icome?host=/tmp")).shown(), "postgres:///icome");
 }
 
