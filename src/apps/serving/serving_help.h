@@ -22,11 +22,9 @@ constexpr const char* kServeNotes =
     "one\n"
     "server at a time.\n"
     "\n"
-    "Any number of servers, with one certificate, before one database; each design is one's at a time, and "
-    "taken\n"
-    "over where that dies:\n"
-    "  icome serve --store postgresql://db/icome --bus nats://bus:4222 --listen 0.0.0.0:4263 "
-    "--certificate c.pem --key k.pem\n"
+    "Any number of servers, with one certificate, before one database; a design is one's at a time, and\n"
+    "taken over where that dies:\n"
+    "  icome serve --store postgresql://db/icome --bus nats://bus:4222 --certificate c.pem --key k.pem\n"
     "\n"
     "JSON, one line as soon as it listens: listening (HOST:PORT), fingerprint, store (and health).";
 
