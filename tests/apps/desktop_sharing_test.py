@@ -75,13 +75,13 @@ class DesktopSharingTest(DesktopTest):
             self.assertEqual((moved["name"], moved["kind"]), ("Ann", "translate"), "Bob's drag went nowhere")
             there = bob.wait_scene("the leg elsewhere", lambda it: it.changed(before) > 0.003)
 
-            ann.key("ctrl+shift+a")  # selects nothing: Bob may have it
-            third.until(lambda it: it["event"] == "floor" and it["holder"] is None)
             ann.key("ctrl+z")
             undone = third.until(lambda it: it["event"] == "edit" and it["name"] == "Ann" and it["sequence"]
                                  > moved["sequence"])
             self.assertEqual(undone["items"][0]["name"], "leg")
             bob.wait_scene("the leg back", lambda it: it.changed(there) > 0.003)
+            ann.key("ctrl+shift+a")  # selects nothing: Bob, who has it selected, gets it
+            third.until(lambda it: it["event"] == "floor" and it["holder"] == "Bob")
             self.drag_middle(bob)
             third.until(lambda it: it["event"] == "edit" and it["name"] == "Bob")
 

@@ -2,12 +2,15 @@
 import json
 import os
 import pathlib
+import queue
 import re
 import signal
 import subprocess
+import threading
 
 from icome_program import PROGRAM
 
+PATIENCE = 90.0  # s, for the next line of somebody who watches
 SECRET = re.compile(r"token=[\w-]+")
 
 
@@ -73,9 +76,20 @@ class Watcher:
         if script is not None:
             self.process.stdin.write(script)
         self.process.stdin.close()
+        self._lines = queue.Queue()
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    def _read(self):
+        for text in self.process.stdout:
+            self._lines.put(text)
+        self._lines.put("")
 
     def next(self):
-        text = self.process.stdout.readline()
+        try:
+            text = self._lines.get(timeout=PATIENCE)
+        except queue.Empty:
+            raise AssertionError(f"nothing was told for {PATIENCE:.0f} s") from None
         if not text:
             raise AssertionError(f"it ended: {self.process.stderr.read()}")
         return json.loads(text)
@@ -89,7 +103,7 @@ class Watcher:
 
     def end(self):
         self.process.send_signal(signal.SIGINT)
-        self.process.stdout.read()
+        self._reader.join()
         error = self.process.stderr.read()
         code = self.process.wait(timeout=60)
         self.process.stdout.close()
@@ -103,5 +117,6 @@ class Watcher:
         if self.process.poll() is None:
             self.process.kill()
             self.process.wait()
+        self._reader.join()
         self.process.stdout.close()
         self.process.stderr.close()
