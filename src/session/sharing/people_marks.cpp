@@ -15,7 +15,7 @@ constexpr double kHead = 0.016;           // radius of the ball at an eye
 constexpr double kPyramid = 0.055;        // length of the pyramid before it
 const base::Vector2 kBeside(10.0, 10.0);  // pixels, of a name
 
-constexpr double kTooNear = 0.15;  // of the view's distance: a mark so near hides what one looks at
+constexpr double kTooNearEye = 0.15;  // of the view's distance: a mark so near hides what one looks at
 
 double distance_to(const interaction::View& view, const Vector3& place) {
   return (place - view.world_from_eye.translation()).norm();
@@ -50,7 +50,7 @@ render::SceneOverlay people_marks(const std::vector<PersonMark>& people, const i
   for (const PersonMark& it : people) {
     const auto& eye = it.where.head ? it.where.head : it.where.view;
     const bool is_eye_seen =
-        eye && it.is_eye_seen && distance_to(view, eye->position) > kTooNear * view.distance;
+        eye && it.is_eye_seen && distance_to(view, eye->position) > kTooNearEye * view.distance;
     if (is_eye_seen) add_eye(it, *eye, view, overlay);
     if (it.where.pointer) {
       const Vector3& tip = it.where.pointer->position;

@@ -22,8 +22,8 @@ using session::SessionSharing;
 namespace {
 
 constexpr const char* kNameKey = "person/name";
-constexpr int kLongestName = 60;  // characters
-constexpr const char* kHint =
+constexpr int kLongestPersonName = 60;  // characters
+constexpr const char* kAddressHint =
     "Paste the address that the owner of a design gave you, as `icome invite` prints it. It is a key to the "
     "design: pass it on only to who may come in.";
 
@@ -38,14 +38,14 @@ ConnectDialog::ConnectDialog(session::Session& session, QSettings& settings,
   setWindowTitle("Open an Address");
   setMinimumWidth(130 * kGrid);
   auto* rows = new QVBoxLayout(this);
-  rows->addWidget(new WrappedLabel(kHint, this));
+  rows->addWidget(new WrappedLabel(kAddressHint, this));
   auto* form = new QFormLayout;
   address_ = new QLineEdit(this);
   address_->setObjectName("connect.address");
   address_->setPlaceholderText("icome://host:port/design#token=\u2026");
   name_ = new QLineEdit(person_name(settings), this);
   name_->setObjectName("connect.name");
-  name_->setMaxLength(kLongestName);
+  name_->setMaxLength(kLongestPersonName);
   name_->setPlaceholderText("as the system knows you");
   form->addRow("&Address", address_);
   form->addRow("Your &name", name_);

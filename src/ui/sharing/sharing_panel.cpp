@@ -21,7 +21,7 @@ using Connection = collab::ConversationState;
 
 namespace {
 
-constexpr int kEvery = 100;                   // ms, between two looks
+constexpr int kLookEvery = 100;               // ms, between two looks
 constexpr std::int64_t kLongSilence = 5'000;  // ms; a server answers every two seconds or so
 constexpr int kMostHeldNames = 3;             // of what somebody holds
 constexpr int kMostSaid = 2'000;              // bytes that a server passes on
@@ -155,7 +155,7 @@ SharingPanel::Parts::Parts(session::Session& of, Hooks its_hooks, SharingPanel& 
                    [this](const QListWidgetItem* item) { follow(*item); });
   QObject::connect(line, &QLineEdit::returnPressed, &panel, [this] { say(); });
   QObject::connect(timer, &QTimer::timeout, &panel, [this] { look(); });
-  timer->setInterval(kEvery);
+  timer->setInterval(kLookEvery);
   look();
 }
 
