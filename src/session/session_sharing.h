@@ -89,7 +89,7 @@ class SessionSharing {
 
   /// Fails as collab::Conversation::say() does.
   base::Result<void> say(const std::string& text);
-  /// What people said and did, the newest last.
+  /// All that people said and did, the newest last.
   const std::deque<SharedLine>& lines() const;
 
   /// Looks at what that person looks at, from there, until follow({}) or a move of one's own; nothing happens

@@ -89,10 +89,12 @@ class ManyServersTest(unittest.TestCase):
         self.edit(at_one, BOX + "\n")  # `one` has the design
         with Watcher(at_two, name="Bob") as bob, Watcher(at_three, name="Cid") as cid:
             bob.until(lambda it: it["event"] == "person" and it["name"] == "Cid")
+            began = time.monotonic()
             one.kill()
             for who in (bob, cid):
                 who.until(lambda it: it["event"] == "state" and it["state"] == "away")
                 who.until(lambda it: it["event"] == "state" and it["state"] == "live")
+            print(f"taken over after {time.monotonic() - began:.1f} s")  # for docs/collaboration.md
             self.edit(at_three, line(op="rename", object="box", name="of three") + "\n")
             bob.until(lambda it: it["event"] == "edit" and it["sequence"] == 2)
             one.start()

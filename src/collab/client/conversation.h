@@ -104,7 +104,8 @@ class Conversation {
   const std::vector<Conflict>& conflicts() const { return conflicts_; }
   /// The world as it was made here, without what others did meanwhile. Precondition: there are conflicts.
   world::World world_as_made_here() const;
-  /// Does as was chosen, of all conflicts() in order, and goes on. New things get ids of the source.
+  /// Does as was chosen, and goes on: one choice for each of conflicts(), in order. New things get ids of the
+  /// source.
   base::Result<void> resolve(std::span<const Choice> choices, world::IdSource& ids);
 
   // ---- the floor
@@ -119,7 +120,7 @@ class Conversation {
   /// Says something to all. Fails without a connection, and for more at a time than a server passes on.
   base::Result<void> say(const std::string& text);
   const std::map<std::uint32_t, Person>& people() const { return people_; }
-  /// Where the others were told to be, by author.
+  /// The places at which others were told to be, by author.
   struct Sighting {
     Whereabouts where = {};
     std::int64_t time = 0;  // ms, when it came

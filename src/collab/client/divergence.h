@@ -12,7 +12,7 @@ struct Conflict {
   bool is_gone = false;  // others have deleted it
 };
 
-/// What a person wants of a thing in conflict.
+/// A person's wish for a thing in conflict.
 enum class Choice : std::uint8_t {
   Theirs,  // the own edits of it are given up
   Mine,    // they are done on top of the others'; not where it is gone

@@ -28,14 +28,14 @@ class NetworkThread final : private LinkEvents {
     std::string why = {};
     bool was_open = false;
   };
-  /// What happened, in order; a string is a frame that came.
+  /// A thing that happened; a string is a frame that came.
   using News = std::variant<Opened, std::string, Closed>;
 
   /// Begins to connect at once.
   static base::Result<std::unique_ptr<NetworkThread>> create(const DesignAddress& address);
   ~NetworkThread() override;
 
-  /// What has happened since the last call. Never waits.
+  /// All that has happened since the last call, in order. Never waits.
   std::vector<News> take();
   /// Waits for news, or until a frame was sent, for so long at most.
   void wait(std::chrono::milliseconds longest);
@@ -70,7 +70,7 @@ class NetworkThread final : private LinkEvents {
   bool is_sending_ = false;
   bool is_closing_ = false;
 
-  // Of both.
+  // Shared by both threads.
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<News> in_;

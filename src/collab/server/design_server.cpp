@@ -23,7 +23,7 @@ constexpr const char* kEmbeddedHolder = "the server of this folder";
 
 std::int64_t steady_milliseconds() { return base::steady_nanoseconds() / 1'000'000; }
 
-/// Where a server listens on the bus; nobody's is where all do.
+/// The subject at which a server listens on the bus; without a name, the one at which all do.
 std::string subject_of(const std::string& server) {
   return server.empty() ? std::string("icome.all") : "icome.server." + server;
 }

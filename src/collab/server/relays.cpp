@@ -121,7 +121,7 @@ void Relays::say_frame(End& end, bool is_to_guest, std::string_view frame) {
   say(end, is_to_guest, Kind::Frame, frame);
 }
 
-/// Of the bytes, and of whom they are for, so that nobody else takes them.
+/// Signs the bytes together with the name of whom they are for, so that nobody else takes them.
 std::string Relays::signature(const std::string& to, std::string_view bytes) const {
   std::string text = to;
   text += '\0';
@@ -198,7 +198,7 @@ void Relays::hear_as_guest(const Message& message) {
   if (message.kind == Kind::Open && message.number == 1 && known == guest_names_.end())
     return open_guest(message);
   if (known == guest_names_.end()) {
-    // Of a relay that has ended here: the other end goes, too.
+    // The relay has ended here: the other end goes, too.
     if (message.kind != Kind::End)
       say(message.from,
           {Kind::End, {}, message.client, false, 0, "The connection between two servers was lost."});

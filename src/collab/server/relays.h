@@ -10,7 +10,8 @@
 
 namespace icome::collab {
 
-/// What relays ask of the server that has them; never from within a call to them that is marked "later".
+/// The server's side of its relays, which they call as messages come and time passes; publish() also from
+/// within calls to them.
 class RelayEvents {
  public:
   virtual ~RelayEvents() = default;

@@ -19,7 +19,8 @@ namespace {
 constexpr unsigned kFenceShift = 32;  // fences of holds count up from the server's own lease, shifted by this
 
 constexpr std::size_t kMostPersonBytes = 100;
-/// Of people: can be told apart, and from the orange of what is selected, on light and dark grounds.
+/// Colours of people, which can be told apart, and from the orange of what is selected, on light and dark
+/// grounds.
 constexpr std::array<std::uint32_t, 8> kColours{0x0072b2, 0x009e73, 0xcc79a7, 0x56b4e9,
                                                 0x7b4fb5, 0xb5123e, 0x8a8a00, 0x00777b};
 constexpr std::size_t kMostChatBytes = 2'000;

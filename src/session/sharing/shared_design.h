@@ -56,7 +56,7 @@ class SharedDesign {
   /// The reason why there was no connection, the last time.
   const std::string& last_why() const { return connection_->last_why(); }
 
-  /// What people said and did, the newest last; old lines go.
+  /// All that people said and did, the newest last; old lines go.
   const std::deque<SharedLine>& lines() const { return lines_; }
   void add_line(SharedLine line);
   /// Adds a line for somebody else who comes or goes, once for each time.

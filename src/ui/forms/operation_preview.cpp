@@ -92,7 +92,7 @@ void OperationPreview::take_back() {
 void OperationPreview::keep() {
   const std::shared_ptr<State> state = state_;
   if (!shown()) return;
-  // What is kept is made of what is there now.
+  // Others may have changed the world below it since it was made.
   if (state->shown->is_stale && state->shown->operation != nullptr)
     (void)show(*state->shown->operation, interaction::Value::Fields(state->shown->fields));
   if (!shown()) return;

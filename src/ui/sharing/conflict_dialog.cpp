@@ -78,7 +78,7 @@ ConflictDialog::ConflictDialog(session::Session& session,
   choose_all(int(Choice::Both));  // nothing is lost where nobody looks closely
 }
 
-/// Where a thing does not have that choice, it stays as it is.
+/// A thing that does not have that choice stays as it is.
 void ConflictDialog::choose_all(int choice) {
   for (QComboBox* it : choices_)
     if (const int row = it->findData(choice); row >= 0) it->setCurrentIndex(row);

@@ -32,7 +32,7 @@ QIcon dot_of(std::uint32_t colour);
 /// The state of the connection in a few words, for the status bar: "table: 2 people, 3 ms"; empty where the
 /// design is on no server.
 QString sharing_words(const session::Session& session);
-/// The same in sentences.
+/// The state of the connection in sentences.
 QString sharing_tip(const session::Session& session);
 
 }  // namespace icome::ui
