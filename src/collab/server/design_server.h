@@ -22,7 +22,7 @@ namespace icome::collab {
 /// How a server serves.
 struct ServeSettings {
   std::string store = {};  // as Store::make() reads it
-  /// Where a server of a database keeps files of its own: certificate, audit log; empty: the usual folder.
+  /// The folder for a database server's own files, such as certificate and audit log; empty: the usual one.
   /// The files of a store in a folder are there.
   std::filesystem::path files = {};
   std::string bus =
