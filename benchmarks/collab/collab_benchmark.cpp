@@ -8,9 +8,12 @@
 
 int main(int argc, char** argv) {
   CLI::App app("Measures the server and the stores of designs. Takes two minutes.");
-  bool is_quick = false;
+  bool is_quick = false, has_stores = true;
   std::string folder = std::filesystem::temp_directory_path().string();
   app.add_flag("--quick", is_quick, "A short run: does it work at all?");
+  std::vector<int> clients;
+  app.add_option("--clients", clients, "Only crowds of so many clients, as 50,100")->delimiter(',');
+  app.add_flag("!--no-stores", has_stores, "Leave the stores out.");
   app.add_option("--folder", folder, "On which disk; by default that of temporary files")
       ->check(CLI::ExistingDirectory);
   CLI11_PARSE(app, argc, argv);
@@ -21,8 +24,9 @@ int main(int argc, char** argv) {
     extent.seconds = 0.1;
     crowd = {.seconds = 0.2, .clients = {3}, .grants = 5};
   }
+  if (!clients.empty()) crowd.clients = clients;
   // Built beside this program.
   const auto program = std::filesystem::canonical("/proc/self/exe").parent_path() / "icome-server";
   print_table(crowd_figures(program, folder, crowd), crowd);
-  print_table(store_figures(folder, extent), extent, folder);
+  if (has_stores) print_table(store_figures(folder, extent), extent, folder);
 }

@@ -15,10 +15,14 @@
 namespace icome::collab {
 namespace {
 
-constexpr std::int64_t kTick = 100;            // ms
-constexpr std::int64_t kMostStopping = 5'000;  // ms for clients to go and for the log to end
-constexpr std::int64_t kBusyFrames = 400;      // in a tick: from then on what is to be said is gathered
-constexpr std::int64_t kBusyPause = 10;        // ms between two frames to a client, when busy
+constexpr std::int64_t kTick = 100;             // ms
+constexpr std::int64_t kMostStopping = 5'000;   // ms for clients to go and for the log to end
+constexpr std::size_t kLongFrame = 1U << 16U;   // bytes: behind such a one more waits
+constexpr std::int64_t kCommitGap = 3'000'000;  // ns from the beginning of a commit to that of the next
+/// Deliveries a second from which what is to be said is gathered, so that each client gets fewer, longer
+/// frames; and how many of them make a millisecond of that, within limits.
+constexpr double kManyDeliveries = 1e5, kDeliveriesAMillisecond = 25e3;
+constexpr double kLeastGather = 8.0, kMostGather = 12.0;  // ms
 constexpr const char* kEmbeddedHolder = "the server of this folder";
 
 std::int64_t steady_milliseconds() { return base::steady_nanoseconds() / 1'000'000; }
@@ -191,20 +195,28 @@ base::Result<void> DesignServer::run(const std::function<bool()>& ends) {
 // ---- what happens
 
 void DesignServer::opened(LinkId link, const Peer& peer) {
-  links_[link] = 0;
+  links_[link] = {};
   hub_.opened(link, peer.address, steady_milliseconds());
 }
 
 void DesignServer::received(LinkId link, std::string_view frame) {
   if (relays_.passes_on(link)) return relays_.from_client(link, frame);
   hub_.received(link, frame, steady_milliseconds(), wall_milliseconds());
+  if (hub_.has_answer(link)) flush(link);
   stir();
 }
 
 void DesignServer::sent(LinkId link) {
   if (relays_.passes_on(link)) return relays_.client_sent(link);
-  sending_.erase(link);
-  flush(link);
+  go_on(link);
+}
+
+/// The last frame has left.
+void DesignServer::go_on(LinkId link) {
+  const auto found = links_.find(link);
+  if (found == links_.end()) return;
+  found->second.is_under_way = false;
+  if (std::exchange(found->second.goes_on, false)) flush(link);
 }
 
 void DesignServer::closed(LinkId link, const std::string&) {
@@ -214,8 +226,6 @@ void DesignServer::closed(LinkId link, const std::string&) {
 
 void DesignServer::forget(LinkId link) {
   links_.erase(link);
-  sending_.erase(link);
-  held_back_.erase(link);
   hub_.closed(link, steady_milliseconds());
   stir();
 }
@@ -244,19 +254,17 @@ bool DesignServer::pass_on(LinkId link, const std::string& server, std::string_v
 }
 
 void DesignServer::guest_opened(LinkId guest, const std::string& address) {
-  links_[guest] = 0;
+  links_[guest] = {};
   hub_.opened(guest, address, steady_milliseconds());
 }
 
 void DesignServer::guest_received(LinkId guest, std::string_view frame) {
   hub_.received(guest, frame, steady_milliseconds(), wall_milliseconds());
+  if (hub_.has_answer(guest)) flush(guest);
   stir();
 }
 
-void DesignServer::guest_sent(LinkId guest) {
-  sending_.erase(guest);
-  flush(guest);
-}
+void DesignServer::guest_sent(LinkId guest) { go_on(guest); }
 
 void DesignServer::guest_closed(LinkId guest) { forget(guest); }
 
@@ -274,15 +282,29 @@ void DesignServer::close(LinkId link, const std::string& why) {
   loop_->post([this, link] { forget(link); });
 }
 
-/// What has happened is followed by one look at who has to hear of it, behind all else that has come in.
+/// What has happened is followed by one look at who has to hear of it, behind all else that has come in, and
+/// where very many have to hear of much, behind what comes in soon.
 void DesignServer::stir() {
-  if (is_stirred_) return;
-  is_stirred_ = true;
-  loop_->post([this] {
+  if (!std::exchange(is_log_stirred_, true))
+    loop_->post([this] {
+      is_log_stirred_ = false;
+      work_on_log();
+    });
+  if (std::exchange(is_stirred_, true)) return;
+  const auto look = [this] {
     is_stirred_ = false;
     flush();
-    work_on_log();
-  });
+  };
+  gather_ == 0 ? loop_->post(look) : loop_->after(std::chrono::milliseconds(gather_), look);
+}
+
+void DesignServer::choose_pace(std::int64_t now) {
+  const std::uint64_t before = std::exchange(deliveries_, hub_.counters().deliveries);
+  const std::int64_t time = std::max<std::int64_t>(1, now - std::exchange(ticked_, now));
+  const double rate = 1e3 * double(deliveries_ - before) / double(time);
+  gather_ = rate < kManyDeliveries
+                ? 0
+                : std::int64_t(std::clamp(rate / kDeliveriesAMillisecond, kLeastGather, kMostGather));
 }
 
 void DesignServer::flush() {
@@ -291,38 +313,37 @@ void DesignServer::flush() {
 
 void DesignServer::flush(LinkId link) {
   const auto found = links_.find(link);
-  if (found == links_.end() || sending_.contains(link)) return;
-  const std::int64_t now = steady_milliseconds();
-  if (is_busy_ && now - found->second < kBusyPause) {
-    if (held_back_.empty())
-      loop_->after(std::chrono::milliseconds(kBusyPause), [this] {
-        for (const LinkId waiting : std::exchange(held_back_, {})) flush(waiting);
-      });
-    held_back_.insert(link);
-    return;
-  }
-  if (SharedBytes frame = hub_.next_frame(link, now)) {
-    found->second = now;
-    ++busy_frames_;
-    sending_.insert(link);
+  if (found == links_.end()) return;
+  Sending& sending = found->second;
+  if (sending.is_under_way) {
+    sending.goes_on = true;
+  } else if (SharedBytes frame = hub_.next_frame(link, steady_milliseconds())) {
+    sending = {true, frame->size() > kLongFrame};
     send(link, std::move(frame));
   } else if (const auto why = hub_.parting(link)) {
     close(link, *why);
   }
 }
 
+/// Commits are some milliseconds apart, as each costs the same whatever is in it.
 void DesignServer::work_on_log() {
   if (log_works_) return;
-  if (StorageWork work = hub_.next_work()) {
+  const std::int64_t now = base::steady_nanoseconds();
+  if (StorageWork work = hub_.next_work(now >= next_commit_)) {
+    if (hub_.appends()) next_commit_ = now + std::max(kCommitGap, gather_ * 1'000'000);
     log_works_ = true;
     log_->start(std::move(work));
+  } else if (now < next_commit_ && !std::exchange(waits_to_commit_, true)) {
+    loop_->after(std::chrono::nanoseconds(next_commit_ - now), [this] {
+      waits_to_commit_ = false;
+      work_on_log();
+    });
   }
 }
 
 void DesignServer::tick() {
   const std::int64_t now = steady_milliseconds();
-  is_busy_ = busy_frames_ > kBusyFrames;
-  busy_frames_ = 0;
+  choose_pace(now);
   is_homeless_ = is_homeless_ || !lock_.is_at_its_path();
   if (!stops_ && (ends_() || is_homeless_)) {
     stops_ = true;

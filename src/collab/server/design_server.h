@@ -87,7 +87,9 @@ class DesignServer final : private LinkEvents, private RelayEvents {
   void stir();
   void flush();
   void flush(LinkId link);
+  void go_on(LinkId link);
   void work_on_log();
+  void choose_pace(std::int64_t now);
   void tick();
   HttpAnswer answer(std::string_view path) const;
   void write_audit(const AuditRow& row);
@@ -106,16 +108,22 @@ class DesignServer final : private LinkEvents, private RelayEvents {
   std::string fingerprint_;
   std::function<bool()> ends_;
   bool log_works_ = false;
-  bool is_stirred_ = false;
+  bool is_stirred_ = false, is_log_stirred_ = false;
   bool stops_ = false;
-  bool is_homeless_ = false;                        // the store is not at its place any more
-  std::int64_t stop_until_ = 0;                     // ms
-  std::int64_t started_ = 0;                        // ms
-  std::unordered_map<LinkId, std::int64_t> links_;  // when each was last sent something, ms
-  std::set<LinkId> sending_;                        // those whose last frame is under way
-  std::set<LinkId> held_back_;                      // to be looked at when their pause is over
-  std::int64_t busy_frames_ = 0;                    // sent in this tenth of a second
-  bool is_busy_ = false;
+  bool is_homeless_ = false;     // the store is not at its place any more
+  std::int64_t stop_until_ = 0;  // ms
+  std::int64_t started_ = 0;     // ms
+  /// How far a connection is with what it is sent.
+  struct Sending {
+    bool is_under_way = false;  // its last frame
+    bool goes_on = false;       // more waits for it than one frame holds, or came while that was under way
+  };
+  std::unordered_map<LinkId, Sending> links_;
+  std::uint64_t deliveries_ = 0;  // HubCounters::deliveries at the last tick
+  std::int64_t gather_ = 0;       // ms in which what is to be said is gathered into one frame
+  std::int64_t ticked_ = 0;       // ms
+  std::int64_t next_commit_ = 0;  // ns
+  bool waits_to_commit_ = false;
   std::unique_ptr<Bus> bus_;  // null: no others are known; last, as its thread posts to the loop
 };
 

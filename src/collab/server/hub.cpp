@@ -122,6 +122,7 @@ void Hub::received(LinkId id, std::string_view frame, std::int64_t now, std::int
       room.receive(id, std::move(*message), now, at);
       counters_.accepted_edits += room.sequence() - sequence;
       counters_.refused_edits += room.refused() - refused;
+      counters_.deliveries += link.design->links.size();
       stir(link.design);
     }
   }
@@ -316,6 +317,12 @@ SharedBytes Hub::next_frame(LinkId id, std::int64_t now) {
   return frame;
 }
 
+bool Hub::has_answer(LinkId id) const {
+  const auto found = links_.find(id);
+  return found != links_.end() && found->second.design && found->second.design->room &&
+         found->second.design->room->has_answer(id);
+}
+
 std::optional<std::string> Hub::parting(LinkId id) const {
   const auto found = links_.find(id);
   if (found == links_.end()) return std::nullopt;
@@ -326,9 +333,9 @@ std::optional<std::string> Hub::parting(LinkId id) const {
 
 // ---- the log
 
-StorageWork Hub::next_work() {
+StorageWork Hub::next_work(bool may_append) {
   const bool may_work = !work_.empty() && work_.front().after_appends <= appends_;
-  const bool appends = has_entries() && !(may_work && appended_last_);
+  const bool appends = may_append && has_entries() && !(may_work && appended_last_);
   StorageWork work;
   if (appends) {
     work = append_work();

@@ -32,6 +32,7 @@ struct HubCounters {
   std::uint64_t rooms = 0;  // now
   std::uint64_t accepted_edits = 0, refused_edits = 0, refused_hellos = 0;
   std::uint64_t frames = 0, frame_bytes = 0, messages = 0;
+  std::uint64_t deliveries = 0;  // messages, each counted for all who may have to hear of it
   std::uint64_t commits = 0, committed_edits = 0, failed_commits = 0;
 };
 
@@ -79,11 +80,15 @@ class Hub {
   /// Connections that may have something to hear since the last call.
   std::set<LinkId> take_stirred();
   SharedBytes next_frame(LinkId link, std::int64_t now);
+  /// Has a question of this client been answered that it waits for? Such a frame is not gathered with others.
+  bool has_answer(LinkId link) const;
   /// The reason to end a connection, after its last frame.
   std::optional<std::string> parting(LinkId link) const;
   /// The next work for the log; empty when there is none. The work before it must be done, and what it
-  /// returned run.
-  StorageWork next_work();
+  /// returned run. Edits are written down only where the log `may_append`, as more may be gathered first.
+  StorageWork next_work(bool may_append = true);
+  /// Does the work that next_work() gave last write edits down?
+  bool appends() const { return appended_last_; }
 
   const HubCounters& counters() const { return counters_; }
   const Room* room(const std::string& design) const;

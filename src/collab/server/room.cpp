@@ -221,6 +221,11 @@ void Room::part(Member& member, const std::string& why, Parting code) {
   member.parting = why;
 }
 
+bool Room::has_answer(LinkId link) const {
+  const auto found = members_.find(link);
+  return found != members_.end() && found->second.has_answer;
+}
+
 std::optional<std::string> Room::parting(LinkId link) const {
   const auto found = members_.find(link);
   if (found == members_.end() || !found->second.waiting.empty()) return std::nullopt;
@@ -286,6 +291,7 @@ void Room::handle(Member& member, Select& message) {
                    floor_.waiting().size() < settings_.most_holds;
     if (answer.waits) floor_.wait(author, message.item);
   }
+  member.has_answer = true;
   tell(member, answer);
 }
 
@@ -379,10 +385,12 @@ SharedBytes Room::next_frame(LinkId link, std::int64_t now) {
   if (found == members_.end()) return nullptr;
   Member& member = found->second;
   std::string frame;
+  member.has_answer = false;
   add_waiting(member, frame);
   if (!member.parting && !member.loads) {
     add_edits(member, frame);
     add_presence(member, frame, now);
+    add_durable(member, frame, now);
     add_waiting(member, frame);
   }
   return frame.empty() ? nullptr : std::make_shared<const std::string>(std::move(frame));
@@ -403,6 +411,7 @@ void Room::add_edits(Member& member, std::string& frame) {
   std::size_t index = std::size_t(member.heard + 1 - tail_begin);
   while (index < tail_.size() && frame.size() < settings_.most_frame_bytes) {
     const TailEdit& edit = tail_[index];
+    if (edit.author == member.who.author) member.own = edit.sequence;
     if (edit.author == member.who.author && edit.number > member.known_number) {
       if (edit.creates) {
         add_to_frame(frame, to_bytes(ServerMessage(
@@ -419,9 +428,16 @@ void Room::add_edits(Member& member, std::string& frame) {
     }
     member.heard = tail_begin + index - 1;
   }
+}
+
+/// Who made an edit hears at once that it is durable; the others when there is something else to hear, or
+/// soon.
+void Room::add_durable(Member& member, std::string& frame, std::int64_t now) const {
   const std::uint64_t durable = std::min(durable_, member.heard);
-  if (durable <= member.heard_durable) return;
+  const bool waits = member.heard_durable < member.own && member.own <= durable;
+  if (durable <= member.heard_durable || (frame.empty() && !waits && now < member.durable_next)) return;
   member.heard_durable = durable;
+  member.durable_next = now + settings_.durable_gap;
   add_to_frame(frame, to_bytes(ServerMessage(Durable{durable})));
 }
 

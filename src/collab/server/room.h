@@ -19,8 +19,9 @@ namespace icome::collab {
 
 /// Limits and times of a room.
 struct RoomSettings {
-  std::int64_t lease = 8'000;                // ms without a word after which holds are lost
-  std::int64_t presence_gap = 33;            // ms between two frames with presence to one client
+  std::int64_t lease = 8'000;      // ms without a word after which holds are lost
+  std::int64_t presence_gap = 33;  // ms between two frames with presence to one client
+  std::int64_t durable_gap = 100;  // ms until those hear that edits are durable who did not make them
   std::size_t most_frame_bytes = 1U << 18U;  // of edits that are joined; a single one may be longer
   std::size_t most_tail_bytes = 64U << 20U;  // of edits that are kept for those who lag behind
   std::size_t fresh_snapshot_bytes =
@@ -91,6 +92,8 @@ class Room {
 
   /// What a client has to hear next, joined into one frame; null when there is nothing now.
   SharedBytes next_frame(LinkId link, std::int64_t now);
+  /// Does an answer about the floor wait for the client? People wait for it with their hand on the thing.
+  bool has_answer(LinkId link) const;
   /// The reason to end a connection, once all frames before it have left.
   std::optional<std::string> parting(LinkId link) const;
 
@@ -126,6 +129,9 @@ class Room {
     std::uint64_t known_number = 0;      // own edits up to this one came by earlier connections
     std::uint64_t heard = 0;             // sequence of the last edit in frames
     std::uint64_t heard_durable = 0;
+    std::uint64_t own = 0;          // sequence of its last own edit in frames
+    std::int64_t durable_next = 0;  // ms: until then it need not hear what is durable, unless that is its own
+    bool has_answer = false;        // about the floor
     std::deque<SharedBytes> waiting;  // messages but edits and presence
     std::size_t waiting_bytes = 0;
     std::uint64_t presence_heard = 0;
@@ -188,6 +194,7 @@ class Room {
   void trim_tail();
   void add_waiting(Member& member, std::string& frame);
   void add_edits(Member& member, std::string& frame);
+  void add_durable(Member& member, std::string& frame, std::int64_t now) const;
   std::size_t add_merged(Member& member, std::size_t index, std::string& frame);
   void add_presence(Member& member, std::string& frame, std::int64_t now);
   std::string person_name(std::uint32_t author) const;
