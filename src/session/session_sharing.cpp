@@ -28,7 +28,8 @@ base::Result<files::LoadedDesign> join(const collab::DesignAddress& address, con
                                        JoinedDesign& joined, const files::DesignReadOptions& options) {
   auto identity = collab::new_identity(name);
   if (!identity) return tl::unexpected(identity.error());
-  auto connection = collab::Connection::create(address, std::move(*identity));
+  auto connection =
+      collab::Connection::create(address, std::move(*identity), collab::FolderContents::of_user());
   if (!connection) return tl::unexpected(connection.error());
   const collab::Conversation& talk = (*connection)->talk();
   const auto is_live = [&] { return talk.state() == ConversationState::Live; };

@@ -67,7 +67,8 @@ std::vector<std::string> room_seeds() {
   return {frame_of_all(ClientMessage(Loaded{0}), ClientMessage(Submit{1, 0, {}, box_bytes(), 0}),
                        ClientMessage(Select{box, true}), ClientMessage(TakeAway{box}),
                        ClientMessage(Deselect{box}), ClientMessage(Say{"hello"}), ClientMessage(Alive{1}),
-                       ClientMessage(Present{}), ClientMessage(Want{0, 0, 100}), ClientMessage(Bye{}))};
+                       ClientMessage(Present{}), ClientMessage(Fetch{std::string(32, 'h'), 0, 100}),
+                       ClientMessage(Bye{}))};
 }
 
 std::vector<std::string> conversation_seeds() {

@@ -46,7 +46,8 @@ base::Result<std::unique_ptr<collab::Connection>> join_design(const std::string&
   auto identity = collab::new_identity();
   if (!identity) return tl::unexpected(identity.error());
   identity->only_reads = only_reads;
-  auto connection = collab::Connection::create(*address, std::move(*identity));
+  auto connection =
+      collab::Connection::create(*address, std::move(*identity), collab::FolderContents::of_user());
   if (!connection) return connection;
   status.say("Connecting to " + collab::shown_address(*address));
   const collab::Conversation& talk = (*connection)->talk();

@@ -1,6 +1,7 @@
 #include "apps/serving/serve_command.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -90,6 +91,9 @@ base::Result<void> say_where(const collab::DesignServer& server, const ServingOp
 
 int run_serve_designs(const ServingOptions& options) {
   catch_interrupts();
+  // Frames of some ten kB come and go all the time: memory that is given back to the system in between costs
+  // more than all else.
+  ::mallopt(M_TRIM_THRESHOLD, 64 << 20);
   const auto settings = understood_serve(options);
   if (!settings) return tell(settings.error().message), kFailed;
   auto server = collab::DesignServer::create(*settings);

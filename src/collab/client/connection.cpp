@@ -23,12 +23,12 @@ bool is_of_this_machine(const std::string& host) {
 
 base::Result<std::unique_ptr<Connection>> Connection::create(const DesignAddress& address,
                                                              ClientIdentity identity,
-                                                             const world::GeometryFactory& factory) {
+                                                             ContentCachePointer cache) {
   if (address.fingerprint == kNoTls && !is_of_this_machine(address.host))
     return base::fail(
         shown_address(address) +
         ": the address asks for a connection without encryption, which only goes to this machine.");
-  std::unique_ptr<Connection> connection(new Connection(address, std::move(identity), factory));
+  std::unique_ptr<Connection> connection(new Connection(address, std::move(identity), std::move(cache)));
   auto network = NetworkThread::create(address);
   if (!network) return tl::unexpected(network.error());
   connection->network_ = std::move(*network);

@@ -16,10 +16,10 @@ namespace icome::collab {
 /// work_until() alone, on the thread that calls them, which may be another one later.
 class Connection {
  public:
-  /// Fails for an address without TLS that is not of this machine.
+  /// Fails for an address without TLS that is not of this machine. The cache is as in Conversation.
   static base::Result<std::unique_ptr<Connection>> create(const DesignAddress& address,
                                                           ClientIdentity identity,
-                                                          const world::GeometryFactory& factory = {});
+                                                          ContentCachePointer cache = nullptr);
 
   Conversation& talk() { return talk_; }
   const Conversation& talk() const { return talk_; }
@@ -35,8 +35,8 @@ class Connection {
   const std::string& last_why() const { return last_why_; }
 
  private:
-  Connection(const DesignAddress& address, ClientIdentity identity, const world::GeometryFactory& factory)
-      : talk_(address, std::move(identity), factory) {}
+  Connection(const DesignAddress& address, ClientIdentity identity, ContentCachePointer cache)
+      : talk_(address, std::move(identity), {}, std::move(cache)) {}
   void take(NetworkThread::Opened& opened);
   void take(std::string& frame);
   void take(NetworkThread::Closed& closed);

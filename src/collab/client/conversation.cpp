@@ -13,19 +13,21 @@ namespace {
 
 constexpr std::size_t kFrameBytes = 1U << 18U;  // at most so many are begun to be put into one frame
 constexpr std::size_t kPartBytes = 1U << 18U;   // of an edit that is sent in parts
-constexpr std::uint64_t kWantsAhead = 3;        // parts of a snapshot that are asked for at a time
 constexpr std::size_t kMuch = 1'000;            // bytes of a frame that may hold several edits
 constexpr const char* kRestored =
     "The design was restored from an earlier state: what came after it is gone.";
-constexpr std::int64_t kUsualLease = 8'000;  // ms
+constexpr std::int64_t kUsualLease = 8'000;         // ms
+constexpr std::size_t kMostHeldBack = 256U << 20U;  // bytes of edits behind one whose contents still come
 
 }  // namespace
 
-Conversation::Conversation(DesignAddress address, ClientIdentity identity, world::GeometryFactory factory)
+Conversation::Conversation(DesignAddress address, ClientIdentity identity, world::GeometryFactory factory,
+                           ContentCachePointer cache)
     : address_(std::move(address)),
       identity_(std::move(identity)),
       factory_(factory),
-      replica_(std::move(factory)) {}
+      replica_(std::move(factory)),
+      contents_(std::move(cache)) {}
 
 // ---- the connection
 
@@ -55,6 +57,10 @@ void Conversation::closed(const std::string& why, std::int64_t now) {
   now_ = now;
   connected_ = false;
   welcome_.reset();
+  contents_.connection_lost();
+  held_back_.clear();
+  held_back_bytes_ = 0;
+  loads_ = false;
   sightings_.clear();
   for (auto& [author, person] : people_) person.here = false;
   if (const auto done = replica_.rewind(); !done) needs_anew_ = true;
@@ -76,10 +82,30 @@ void Conversation::received(std::string_view frame, std::int64_t now) {
     if (!message) {
       begin_anew(message.error());
     } else {
-      std::visit([this](auto& it) { hear(it); }, *message);
+      take_in(std::move(*message));
     }
   }
   if (brings_much) replica_.refresh();
+}
+
+/// Everything is heard in the order in which it was said: what comes behind an edit whose contents are still
+/// to come is held back.
+void Conversation::take_in(ServerMessage message) {
+  if (waits_for_contents(message)) {
+    if (const auto* const ordered = std::get_if<Ordered>(&message)) held_back_bytes_ += ordered->edit.size();
+    held_back_.push_back(std::move(message));
+    if (held_back_bytes_ > kMostHeldBack)
+      begin_anew({"Too much came while a shape or a picture was fetched."});
+    return;
+  }
+  std::visit([this](auto& it) { hear(it); }, message);
+}
+
+bool Conversation::waits_for_contents(const ServerMessage& message) const {
+  const bool is_about_now =
+      std::holds_alternative<Piece>(message) || std::holds_alternative<Living>(message) ||
+      std::holds_alternative<Presence>(message) || std::holds_alternative<Goodbye>(message);
+  return contents_.is_fetching() && !is_about_now;
 }
 
 SharedBytes Conversation::next_frame(std::int64_t now) {
@@ -160,9 +186,6 @@ void Conversation::hear(Refused& message) { end(message.why, message.code); }
 void Conversation::hear(Goodbye& message) { end(message.why, message.code); }
 
 void Conversation::hear(Welcome& message) {
-  const bool goes_on = welcome_ && message.snapshot == welcome_->snapshot &&
-                       message.snapshot_bytes == welcome_->snapshot_bytes &&
-                       message.snapshot <= welcome_->durable;
   why_.clear();
   if (history_ != 0 && message.history != history_)
     if (const auto done = notice_restored(message.author); !done) return begin_anew(done.error());
@@ -175,10 +198,8 @@ void Conversation::hear(Welcome& message) {
   if (asks_for_choices_ && !before_ && replica_.pending() > 0) before_ = replica_.world_of_server();
   change_state(ConversationState::Joining, "");
   if (!message.loads) return go_live_if_caught_up();
-  if (!goes_on) snapshot_.clear();
-  asked_for_ = snapshot_.size();
-  if (snapshot_.size() == message.snapshot_bytes) return finish_loading();
-  want_pieces();
+  loads_ = true;
+  load();
 }
 
 /// Another author's number would make the ids of new things somebody else's: what is pending is given up
@@ -193,28 +214,52 @@ base::Result<void> Conversation::notice_restored(std::uint32_t author) {
   return {};
 }
 
-void Conversation::want_pieces() {
-  const std::uint64_t total = welcome_->snapshot_bytes;
-  while (asked_for_ < total && asked_for_ + kMostWanted <= snapshot_.size() + kWantsAhead * kMostWanted) {
-    queue(Want{welcome_->snapshot, asked_for_, kMostWanted});
-    asked_for_ += std::min(kMostWanted, total - asked_for_);
-  }
+void Conversation::want_contents() {
+  for (const Fetch& fetch : contents_.questions()) queue(fetch);
 }
 
 void Conversation::hear(Piece& message) {
-  if (!welcome_ || message.snapshot != welcome_->snapshot || message.offset != snapshot_.size() ||
-      message.bytes.empty() || message.bytes.size() > welcome_->snapshot_bytes - snapshot_.size())
-    return;  // of a snapshot that is no longer asked for
-  snapshot_ += message.bytes;
-  if (snapshot_.size() == welcome_->snapshot_bytes) {
-    finish_loading();
-  } else {
-    want_pieces();
+  if (const auto done = contents_.take(message); !done) return begin_anew(done.error());
+  contents_.is_fetching() ? want_contents() : go_on_with_contents();
+}
+
+void Conversation::go_on_with_contents() {
+  if (loads_) load();
+  while (!held_back_.empty() && !contents_.is_fetching() && !wants_to_close_) {
+    ServerMessage next = std::move(held_back_.front());
+    held_back_.pop_front();
+    if (const auto* const ordered = std::get_if<Ordered>(&next)) held_back_bytes_ -= ordered->edit.size();
+    std::visit([this](auto& it) { hear(it); }, next);
   }
 }
 
-void Conversation::finish_loading() {
-  auto world = world_from_bytes(std::exchange(snapshot_, {}), factory_);
+/// Puts the contents of an edit in. False: they are still to come, and the edit waits for them.
+bool Conversation::make_whole(Ordered& message) {
+  if (!message.is_outline) return true;
+  auto whole = contents_.whole(message.edit);
+  if (!whole) {
+    begin_anew(whole.error());
+    return false;
+  }
+  if (!*whole) {
+    held_back_bytes_ += message.edit.size();
+    held_back_.emplace_front(std::move(message));
+    want_contents();
+    return false;
+  }
+  message.edit = std::move(**whole);
+  message.is_outline = false;
+  return true;
+}
+
+void Conversation::load() {
+  const ContentPointer outline = contents_.outline(welcome_->snapshot_hash, welcome_->snapshot_bytes);
+  if (!outline) return want_contents();
+  auto whole = contents_.whole(*outline);
+  if (!whole) return begin_anew(whole.error());
+  if (!*whole) return want_contents();
+  loads_ = false;
+  auto world = world_from_bytes(**whole, factory_);
   if (!world) return begin_anew(world.error());
   if (const auto done = replica_.begin(std::move(*world), welcome_->snapshot, welcome_->accepted); !done)
     return begin_anew(done.error());
@@ -226,8 +271,12 @@ void Conversation::finish_loading() {
 
 double Conversation::progress() const {
   if (state_ == ConversationState::Live) return 1.0;
-  if (!welcome_ || welcome_->snapshot_bytes == 0) return 0.0;
-  return double(snapshot_.size()) / double(welcome_->snapshot_bytes);
+  if (!welcome_ || !loads_) return 0.0;
+  const bool is_outline_here = contents_.bytes_to_fetch() > welcome_->snapshot_bytes;
+  // Some contents are here already.
+  const std::uint64_t all =
+      is_outline_here ? contents_.bytes_to_fetch() : welcome_->snapshot_bytes + welcome_->content_bytes;
+  return double(contents_.fetched_bytes()) / double(std::max<std::uint64_t>(all, 1));
 }
 
 /// Joined once all is here that the server had ordered when it said welcome.
@@ -276,6 +325,7 @@ base::Result<void> Conversation::resolve(std::span<const Choice> choices, world:
 }
 
 void Conversation::hear(Ordered& message) {
+  if (!make_whole(message)) return;
   SeenEdit seen{message.last, message.author, 0, {}, {}};
   if (message.author == replica_.author() && message.number > 0) seen.number = message.number;
   if (const auto done = replica_.ordered(message); !done) return begin_anew(done.error());

@@ -11,6 +11,7 @@
 #include "collab/client/divergence.h"
 #include "collab/client/obstacle.h"
 #include "collab/client/replica.h"
+#include "collab/content/content_fetcher.h"
 #include "collab/link/link_loop.h"
 #include "collab/protocol/address.h"
 
@@ -61,7 +62,9 @@ using Seen = std::variant<SeenEdit, SeenDurable, SeenState, Dropped, Selected, F
 /// connected is sent when somebody is. One thread.
 class Conversation {
  public:
-  Conversation(DesignAddress address, ClientIdentity identity, world::GeometryFactory factory = {});
+  /// `cache` keeps the contents that come in; null: each is fetched whenever it is needed.
+  Conversation(DesignAddress address, ClientIdentity identity, world::GeometryFactory factory = {},
+               ContentCachePointer cache = nullptr);
 
   // ---- the connection
   void opened(std::int64_t now);
@@ -159,8 +162,12 @@ class Conversation {
   void queue_edits();
   void ask_again();
   base::Result<void> notice_restored(std::uint32_t author);
-  void want_pieces();
-  void finish_loading();
+  void take_in(ServerMessage message);
+  bool waits_for_contents(const ServerMessage& message) const;
+  void go_on_with_contents();
+  bool make_whole(Ordered& message);
+  void want_contents();
+  void load();
   void go_live_if_caught_up();
   void find_conflicts();
   void change_state(ConversationState state, const std::string& why);
@@ -185,8 +192,10 @@ class Conversation {
   std::deque<std::string> outgoing_;
   std::optional<Whereabouts> to_present_;
   std::optional<Welcome> welcome_;
-  std::string snapshot_;         // the part that has come
-  std::uint64_t asked_for_ = 0;  // bytes of it that were asked for
+  ContentFetcher contents_;
+  bool loads_ = false;                   // a snapshot
+  std::deque<ServerMessage> held_back_;  // until contents are here
+  std::size_t held_back_bytes_ = 0;      // of their edits
   bool settled_ = false;
   std::uint32_t lease_ = 0;      // ms
   std::int64_t alive_said_ = 0;  // ms

@@ -15,7 +15,7 @@ namespace icome::collab {
 // numbers that the server gives, the same for all of a design; 0 is nobody. Sequences count a design's edits
 // from 1.
 
-inline constexpr std::uint16_t kProtocolVersion = 1;
+inline constexpr std::uint16_t kProtocolVersion = 2;
 
 /// What somebody may do with a design; each includes what is before it.
 enum class Role : std::uint8_t { View, Edit, Own };
@@ -40,9 +40,9 @@ struct Hello {
   std::uint64_t first_pending = 0;
   bool only_reads = false;  // nothing will be changed: the client need not be an author
 };
-/// Asks for a part of a snapshot, which comes in pieces.
-struct Want {
-  std::uint64_t snapshot = 0;
+/// Asks for a part of a content: a long shape or picture, or the outline of a snapshot. It comes in pieces.
+struct Fetch {
+  std::string hash = {};     // SHA-256, 32 bytes
   std::uint64_t offset = 0;  // bytes
   std::uint64_t bytes = 0;   // at most kMostWanted
 };
@@ -107,11 +107,13 @@ struct Welcome {
   std::uint64_t durable = 0;   // of the last one on the disk
   bool loads = false;  // the client is to load a snapshot first; else the edits behind `have` follow at once
   std::uint64_t snapshot = 0;                // its sequence
-  std::uint64_t snapshot_bytes = 0;          // 0: an empty design
+  std::uint64_t snapshot_bytes = 0;          // of its outline, to_bytes(Outline) of world_to_bytes
   std::uint32_t lease = 0;                   // ms without a word after which holds are lost
   std::uint64_t history = 0;                 // another one where the store was restored from a backup
   std::vector<std::uint64_t> accepted = {};  // numbers of the author's edits that the snapshot holds,
   std::uint64_t accepted_from = 0;           // all of them from this number on
+  std::uint64_t content_bytes = 0;           // of the snapshot's contents
+  std::string snapshot_hash = {};            // of its outline
 };
 /// The reason why somebody does not get in, or has to leave.
 enum class Parting : std::uint8_t {
@@ -127,10 +129,10 @@ struct Refused {
   std::string why = {};
   Parting code = Parting::Other;
 };
+/// Of a content; without bytes: it is not here any more.
 struct Piece {
-  std::uint64_t snapshot = 0;
+  std::string hash = {};
   std::uint64_t offset = 0;
-  std::uint64_t total = 0;
   std::string bytes = {};
 };
 /// An edit in its order, to all but its author; one that creates objects also to the author, without bytes,
@@ -141,7 +143,8 @@ struct Ordered {
   std::uint32_t author = 0;
   std::uint64_t number = 0;  // the author's, of the last one
   std::string edit = {};
-  bool creates = false;  // COLOBJ_CREATE
+  bool creates = false;     // COLOBJ_CREATE
+  bool is_outline = false;  // `edit` is to_bytes(Outline): its contents are fetched by themselves
 };
 /// The author's own edit has been ordered; it is durable when a Durable says so.
 struct Accepted {
@@ -209,7 +212,7 @@ struct Goodbye {
 };
 
 using ClientMessage =
-    std::variant<Hello, Want, Loaded, Submit, Select, Deselect, TakeAway, Present, Say, Alive, Bye>;
+    std::variant<Hello, Fetch, Loaded, Submit, Select, Deselect, TakeAway, Present, Say, Alive, Bye>;
 using ServerMessage = std::variant<Welcome, Refused, Piece, Ordered, Accepted, Rejected, Durable, Selected,
                                    FloorChanged, FloorState, People, Presence, Said, Living, Goodbye>;
 

@@ -57,8 +57,8 @@ class MessageWriter {
                                         it.colour, program, it.has_world, it.have, it.history,
                                         it.first_pending, it.only_reads));
   }
-  WrittenContent operator()(const Want& it) {
-    return as_content(flat::CreateWant(builder_, it.snapshot, it.offset, it.bytes));
+  WrittenContent operator()(const Fetch& it) {
+    return as_content(flat::CreateFetch(builder_, bytes(it.hash), it.offset, it.bytes));
   }
   WrittenContent operator()(const Loaded& it) {
     return as_content(flat::CreateLoaded(builder_, it.snapshot));
@@ -91,20 +91,25 @@ class MessageWriter {
 
   WrittenContent operator()(const Welcome& it) {
     const auto accepted = builder_.CreateVector(it.accepted);
-    return as_content(flat::CreateWelcome(
-        builder_, it.version, it.author, it.last_number, std::uint8_t(it.role), it.sequence, it.durable,
-        it.loads, it.snapshot, it.snapshot_bytes, it.lease, it.history, accepted, it.accepted_from));
+    const auto hash = bytes(it.snapshot_hash);
+    return as_content(flat::CreateWelcome(builder_, it.version, it.author, it.last_number,
+                                          std::uint8_t(it.role), it.sequence, it.durable, it.loads,
+                                          it.snapshot, it.snapshot_bytes, it.lease, it.history, accepted,
+                                          it.accepted_from, it.content_bytes, hash));
   }
   WrittenContent operator()(const Refused& it) {
     return as_content(flat::CreateRefused(builder_, text(it.why), std::uint8_t(it.code)));
   }
   WrittenContent operator()(const Piece& it) {
-    return as_content(flat::CreatePiece(builder_, it.snapshot, it.offset, it.total, bytes(it.bytes)));
+    const auto hash = bytes(it.hash);
+    return as_content(flat::CreatePiece(builder_, hash, it.offset, bytes(it.bytes)));
   }
   WrittenContent operator()(const Ordered& it) {
     const auto edit = bytes(it.edit);
-    if (it.creates) return as_content(flat::CreateCreate(builder_, it.last, it.author, it.number, edit));
-    return as_content(flat::CreateEdited(builder_, it.first, it.last, it.author, it.number, edit));
+    if (it.creates)
+      return as_content(flat::CreateCreate(builder_, it.last, it.author, it.number, edit, it.is_outline));
+    return as_content(
+        flat::CreateEdited(builder_, it.first, it.last, it.author, it.number, edit, it.is_outline));
   }
   WrittenContent operator()(const Accepted& it) {
     return as_content(flat::CreateAccepted(builder_, it.number, it.sequence));
@@ -176,7 +181,7 @@ class MessageReader {
                  it.has_world(),        it.have(),         it.history(),     it.first_pending(),
                  it.only_reads()};
   }
-  ClientMessage operator()(const flat::Want& it) { return Want{it.snapshot(), it.offset(), it.bytes()}; }
+  ClientMessage operator()(const flat::Fetch& it) { return Fetch{bytes(it.hash()), it.offset(), it.bytes()}; }
   ClientMessage operator()(const flat::Loaded& it) { return Loaded{it.snapshot()}; }
   ClientMessage operator()(const flat::Submit& it) {
     return Submit{it.number(), it.base(), reader_.items<std::uint64_t>(it.fences()), bytes(it.edit()),
@@ -191,21 +196,22 @@ class MessageReader {
   ClientMessage operator()(const flat::Bye&) { return Bye{}; }
 
   ServerMessage operator()(const flat::Welcome& it) {
-    return Welcome{it.version(),      it.author(),   it.last_number(),
-                   role(it.role()),   it.sequence(), it.durable(),
-                   it.loads(),        it.snapshot(), it.snapshot_bytes(),
-                   it.lease(),        it.history(),  reader_.items<std::uint64_t>(it.accepted()),
-                   it.accepted_from()};
+    return Welcome{it.version(),       it.author(),        it.last_number(),
+                   role(it.role()),    it.sequence(),      it.durable(),
+                   it.loads(),         it.snapshot(),      it.snapshot_bytes(),
+                   it.lease(),         it.history(),       reader_.items<std::uint64_t>(it.accepted()),
+                   it.accepted_from(), it.content_bytes(), bytes(it.snapshot_hash())};
   }
   ServerMessage operator()(const flat::Refused& it) { return Refused{text(it.why()), parting(it.code())}; }
   ServerMessage operator()(const flat::Piece& it) {
-    return Piece{it.snapshot(), it.offset(), it.total(), bytes(it.bytes())};
+    return Piece{bytes(it.hash()), it.offset(), bytes(it.bytes())};
   }
   ServerMessage operator()(const flat::Create& it) {
-    return Ordered{it.sequence(), it.sequence(), it.author(), it.number(), bytes(it.edit()), true};
+    return Ordered{it.sequence(),    it.sequence(), it.author(),    it.number(),
+                   bytes(it.edit()), true,          it.is_outline()};
   }
   ServerMessage operator()(const flat::Edited& it) {
-    return Ordered{it.first(), it.last(), it.author(), it.number(), bytes(it.edit())};
+    return Ordered{it.first(), it.last(), it.author(), it.number(), bytes(it.edit()), false, it.is_outline()};
   }
   ServerMessage operator()(const flat::Accepted& it) { return Accepted{it.number(), it.sequence()}; }
   ServerMessage operator()(const flat::Rejected& it) {
@@ -277,7 +283,7 @@ class MessageReader {
 template <typename... Kinds>
 struct KindList {};
 using ClientKinds =
-    KindList<flat::Hello, flat::Want, flat::Loaded, flat::Submit, flat::Select, flat::Deselect,
+    KindList<flat::Hello, flat::Fetch, flat::Loaded, flat::Submit, flat::Select, flat::Deselect,
              flat::TakeAway, flat::Present, flat::Say, flat::Alive, flat::Bye>;
 using ServerKinds =
     KindList<flat::Welcome, flat::Refused, flat::Piece, flat::Create, flat::Edited, flat::Accepted,

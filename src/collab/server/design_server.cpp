@@ -290,12 +290,24 @@ void DesignServer::stir() {
       is_log_stirred_ = false;
       work_on_log();
     });
-  if (std::exchange(is_stirred_, true)) return;
-  const auto look = [this] {
-    is_stirred_ = false;
-    flush();
-  };
-  gather_ == 0 ? loop_->post(look) : loop_->after(std::chrono::milliseconds(gather_), look);
+  if (!std::exchange(is_stirred_, true)) look_soon();
+}
+
+void DesignServer::look_soon() {
+  if (gather_ == 0) return loop_->post([this] { look(); });
+  loop_->after(std::chrono::microseconds(1'000 * gather_ / std::int64_t(kTurns)), [this] { look(); });
+}
+
+/// Where what is to be said is gathered, the connections take turns: a burst to all of them would keep the
+/// last ones waiting.
+void DesignServer::look() {
+  for (const LinkId link : hub_.take_stirred()) turns_[link % kTurns].insert(link);
+  for (std::size_t i = 0; i < (gather_ == 0 ? kTurns : 1); ++i) {
+    turn_ = (turn_ + 1) % kTurns;
+    for (const LinkId link : std::exchange(turns_[turn_], {})) flush(link);
+  }
+  is_stirred_ = std::ranges::any_of(turns_, [](const auto& links) { return !links.empty(); });
+  if (is_stirred_) look_soon();
 }
 
 void DesignServer::choose_pace(std::int64_t now) {
@@ -305,10 +317,6 @@ void DesignServer::choose_pace(std::int64_t now) {
   gather_ = rate < kManyDeliveries
                 ? 0
                 : std::int64_t(std::clamp(rate / kDeliveriesAMillisecond, kLeastGather, kMostGather));
-}
-
-void DesignServer::flush() {
-  for (const LinkId link : hub_.take_stirred()) flush(link);
 }
 
 void DesignServer::flush(LinkId link) {

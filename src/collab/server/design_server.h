@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -85,7 +86,8 @@ class DesignServer final : private LinkEvents, private RelayEvents {
   void close(LinkId link, const std::string& why);
   void forget(LinkId link);
   void stir();
-  void flush();
+  void look_soon();
+  void look();
   void flush(LinkId link);
   void go_on(LinkId link);
   void work_on_log();
@@ -120,9 +122,12 @@ class DesignServer final : private LinkEvents, private RelayEvents {
   };
   std::unordered_map<LinkId, Sending> links_;
   std::uint64_t deliveries_ = 0;  // HubCounters::deliveries at the last tick
-  std::int64_t gather_ = 0;       // ms in which what is to be said is gathered into one frame
-  std::int64_t ticked_ = 0;       // ms
-  std::int64_t next_commit_ = 0;  // ns
+  static constexpr std::size_t kTurns = 4;
+  std::array<std::set<LinkId>, kTurns> turns_;  // connections that may have something to hear
+  std::size_t turn_ = 0;                        // the group that was looked at last
+  std::int64_t gather_ = 0;                     // ms in which what is to be said is gathered into one frame
+  std::int64_t ticked_ = 0;                     // ms
+  std::int64_t next_commit_ = 0;                // ns
   bool waits_to_commit_ = false;
   std::unique_ptr<Bus> bus_;  // null: no others are known; last, as its thread posts to the loop
 };

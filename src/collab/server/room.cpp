@@ -52,7 +52,8 @@ Room::Room(std::string design, std::uint64_t fence, const RoomSettings& settings
       settings_(settings),
       factory_(factory),
       epoch_(fence << kFenceShift),
-      floor_(epoch_) {}
+      floor_(epoch_),
+      shelf_(settings.content_bytes) {}
 
 base::Result<std::unique_ptr<Room>> Room::open(const RoomStart& start, const RoomSettings& settings,
                                                const world::GeometryFactory& factory) {
@@ -141,15 +142,17 @@ void Room::welcome(Member& member, bool may_resume) {
     member.heard = who.have;
     member.loads.reset();
   } else {
-    const SharedSnapshot snapshot = snapshot_for_joining();
+    const SharedSnapshot& snapshot = snapshot_for_joining();
     message.loads = true;
     const Author& author = authors_[who.author];
     message.accepted_from = author.accepted.empty() ? author.last_number + 1 : author.accepted.front();
     for (const std::uint64_t number : author.accepted)
       if (number >= who.first_pending) message.accepted.push_back(number);
     message.snapshot = snapshot.sequence;
-    message.snapshot_bytes = snapshot.bytes->size();
-    member.loads = snapshot.sequence;
+    message.snapshot_bytes = snapshot.world.shelved.outline->size();
+    message.content_bytes = snapshot.world.shelved.bytes;
+    message.snapshot_hash = snapshot.world.hash;
+    member.loads = snapshot;
     member.heard = snapshot.sequence;
   }
   member.heard_durable = 0;
@@ -157,17 +160,17 @@ void Room::welcome(Member& member, bool may_resume) {
 }
 
 /// The last snapshot, if the edits behind it are few and all here, or a new one.
-Room::SharedSnapshot Room::snapshot_for_joining() {
+const Room::SharedSnapshot& Room::snapshot_for_joining() {
   std::size_t behind = 0;
   for (auto edit = tail_.rbegin(); edit != tail_.rend() && edit->sequence > snapshot_.sequence; ++edit)
-    behind += edit->message->size();
+    behind += edit->bytes();
   const bool follows =
       snapshot_.sequence == sequence_ || (!tail_.empty() && tail_.front().sequence <= snapshot_.sequence + 1);
-  if (!snapshot_.bytes || !follows || behind > settings_.fresh_snapshot_bytes) {
-    auto bytes = world_to_bytes(world_);
+  if (!snapshot_.world.shelved.outline || !follows || behind > settings_.fresh_snapshot_bytes) {
+    const auto bytes = world_to_bytes(world_);
     // Whatever is in the world came in as bytes.
     assert(bytes);
-    snapshot_ = {sequence_, std::make_shared<const std::string>(bytes ? std::move(*bytes) : std::string())};
+    snapshot_ = {sequence_, shelf_.take_world(bytes ? std::string_view(*bytes) : std::string_view())};
   }
   return snapshot_;
 }
@@ -251,21 +254,19 @@ void Room::receive(LinkId link, ClientMessage message, std::int64_t now, std::in
 
 void Room::handle(Member& member, Hello&) { part(member, "A client says hello once.", Parting::Broken); }
 
-void Room::handle(Member& member, Want& message) {
-  const bool is_there = snapshot_.bytes && message.snapshot == snapshot_.sequence &&
-                        member.loads == message.snapshot && message.offset < snapshot_.bytes->size();
-  // Somebody has come in meanwhile who needed a newer one.
-  if (!is_there) return member.loads ? welcome(member, false) : void();
-  const std::uint64_t total = snapshot_.bytes->size();
-  const std::uint64_t end = message.offset + std::min({message.bytes, kMostWanted, total - message.offset});
+void Room::handle(Member& member, Fetch& message) {
+  const ContentPointer content = shelf_.find(message.hash);
+  if (!content || message.offset >= content->size())
+    return tell(member, Piece{message.hash, message.offset, {}});
+  const std::uint64_t end =
+      message.offset + std::min({message.bytes, kMostWanted, content->size() - message.offset});
   for (std::uint64_t at = message.offset; at < end; at += settings_.piece_bytes)
-    tell(member,
-         Piece{message.snapshot, at, total,
-               snapshot_.bytes->substr(at, std::min<std::uint64_t>(settings_.piece_bytes, end - at))});
+    tell(member, Piece{message.hash, at,
+                       content->substr(at, std::min<std::uint64_t>(settings_.piece_bytes, end - at))});
 }
 
 void Room::handle(Member& member, Loaded& message) {
-  if (member.loads == message.snapshot) member.loads.reset();
+  if (member.loads && member.loads->sequence == message.snapshot) member.loads.reset();
 }
 
 void Room::handle(Member& member, Select& message) {
@@ -409,6 +410,10 @@ void Room::add_edits(Member& member, std::string& frame) {
     return welcome(member, false);  // it lags so far behind that it begins anew
   const std::uint64_t tail_begin = sequence_ + 1 - tail_.size();
   std::size_t index = std::size_t(member.heard + 1 - tail_begin);
+  if (index < tail_.size() && tail_.size() - index < settings_.merge_from)
+    frame.reserve(frame.size() +
+                  std::min<std::size_t>(settings_.most_frame_bytes + tail_.back().framed.size(),
+                                        framed_end_ - tail_[index].end + tail_[index].framed.size()));
   while (index < tail_.size() && frame.size() < settings_.most_frame_bytes) {
     const TailEdit& edit = tail_[index];
     if (edit.author == member.who.author) member.own = edit.sequence;
@@ -423,7 +428,7 @@ void Room::add_edits(Member& member, std::string& frame) {
     } else if (tail_.size() - index >= settings_.merge_from) {
       index = add_merged(member, index, frame);
     } else {
-      add_to_frame(frame, *edit.message);
+      frame += edit.framed;
       ++index;
     }
     member.heard = tail_begin + index - 1;
@@ -461,7 +466,7 @@ void Room::trim_tail() {
   for (const auto& [link, member] : members_) heard = std::min(heard, member.heard);
   while (!tail_.empty() && ((tail_.front().sequence <= heard && tail_bytes_ > kept) ||
                             tail_bytes_ > settings_.most_tail_bytes)) {
-    tail_bytes_ -= tail_.front().message->size();
+    tail_bytes_ -= tail_.front().bytes();
     tail_.pop_front();
   }
 }

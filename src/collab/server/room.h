@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "collab/content/content_shelf.h"
 #include "collab/link/link_loop.h"
 #include "collab/protocol/message.h"
 #include "collab/server/floor.h"
@@ -32,7 +33,8 @@ struct RoomSettings {
   std::size_t most_parts_bytes = 512U << 20U;  // of unfinished edits of all clients
   std::size_t most_waiting = 1'000;            // things that one person may wait for
   std::size_t most_holds = 10'000;             // of one client
-  std::size_t piece_bytes = 1U << 18U;         // of a snapshot
+  std::size_t piece_bytes = 1U << 18U;         // of a snapshot or a content
+  std::size_t content_bytes = 1U << 14U;       // of a shape or a picture that goes by itself
 };
 
 /// What a room is made of: a design as its log has it.
@@ -121,13 +123,21 @@ class Room {
     std::uint64_t number = 0;
     bool creates = false;
     world::Edit edit;
-    SharedBytes message;  // Ordered, for all but the author
+    std::string framed = {};             // Ordered, for all but the author, as frames have it
+    std::uint64_t end = 0;               // bytes of all `framed` so far
+    ContentShelf::Shelved shelved = {};  // its contents, where it has any
+
+    std::size_t bytes() const { return framed.size() + shelved.bytes; }
+  };
+  struct SharedSnapshot {
+    std::uint64_t sequence = 0;
+    ContentShelf::ShelvedWorld world = {};
   };
   struct Member {
     Arrival who;
-    std::optional<std::uint64_t> loads;  // the snapshot that it loads; the edits wait
-    std::uint64_t known_number = 0;      // own edits up to this one came by earlier connections
-    std::uint64_t heard = 0;             // sequence of the last edit in frames
+    std::optional<SharedSnapshot> loads;  // the snapshot that it loads; the edits wait
+    std::uint64_t known_number = 0;       // own edits up to this one came by earlier connections
+    std::uint64_t heard = 0;              // sequence of the last edit in frames
     std::uint64_t heard_durable = 0;
     std::uint64_t own = 0;          // sequence of its last own edit in frames
     std::int64_t durable_next = 0;  // ms: until then it need not hear what is durable, unless that is its own
@@ -152,12 +162,8 @@ class Room {
     std::uint64_t sequence = 0;
     std::uint32_t author = 0;
   };
-  struct SharedSnapshot {
-    std::uint64_t sequence = 0;
-    SharedBytes bytes;
-  };
 
-  void handle(Member& member, Want& message);
+  void handle(Member& member, Fetch& message);
   void handle(Member& member, Loaded& message);
   void handle(Member& member, Submit& message, std::int64_t at);
   void handle(Member& member, Select& message);
@@ -171,7 +177,7 @@ class Room {
 
   base::Result<void> replay(const RoomStart& start);
   void welcome(Member& member, bool may_resume);
-  SharedSnapshot snapshot_for_joining();
+  const SharedSnapshot& snapshot_for_joining();
   bool is_whole(Member& member, Submit& message);
   void forget_parts(Member& member);
   struct Refusal {
@@ -208,8 +214,10 @@ class Room {
   std::uint64_t history_ = 0;
   std::uint64_t epoch_ = 0;  // fences of holds of this room's life are at least this
   Floor floor_;
-  std::deque<TailEdit> tail_;  // the newest edits, in order
-  std::size_t tail_bytes_ = 0;
+  std::deque<TailEdit> tail_;     // the newest edits, in order
+  std::size_t tail_bytes_ = 0;    // with contents
+  std::uint64_t framed_end_ = 0;  // of the newest edit
+  ContentShelf shelf_;
   SharedSnapshot snapshot_;
   std::map<LinkId, Member> members_;
   std::map<std::uint32_t, Author> authors_;

@@ -194,10 +194,15 @@ void Room::append_to_tail(std::uint32_t author, std::uint64_t number, std::strin
   accepted.push_back(number);
   if (accepted.size() > kMostAccepted) accepted.pop_front();
   const bool creates = edit_word(edit) == "create";
-  SharedBytes message = std::make_shared<const std::string>(
-      to_bytes(ServerMessage(Ordered{sequence_, sequence_, author, number, std::move(bytes), creates})));
-  tail_bytes_ += message->size();
-  tail_.push_back({sequence_, author, number, creates, std::move(edit), std::move(message)});
+  TailEdit added{sequence_, author, number, creates, std::move(edit)};
+  added.shelved = shelf_.take_edit(bytes);
+  const bool is_outline = !added.shelved.contents.empty();
+  if (is_outline) bytes = *std::exchange(added.shelved.outline, nullptr);
+  add_to_frame(added.framed, to_bytes(ServerMessage(Ordered{sequence_, sequence_, author, number,
+                                                            std::move(bytes), creates, is_outline})));
+  added.end = framed_end_ += added.framed.size();
+  tail_bytes_ += added.bytes();
+  tail_.push_back(std::move(added));
 }
 
 /// Deleted things are held no longer, and what was moved or deleted may make room for those who wait.
@@ -219,7 +224,7 @@ std::size_t Room::add_merged(Member& member, std::size_t index, std::string& fra
   while (end < tail_.size() && is_step_of_drag(tail_[end].edit) && tail_[end].author != member.who.author)
     ++end;
   if (end - index < 2) {
-    add_to_frame(frame, *tail_[index].message);
+    frame += tail_[index].framed;
     return index + 1;
   }
   std::set<std::pair<Item, std::vector<std::uint32_t>>> seen;
@@ -232,7 +237,7 @@ std::size_t Room::add_merged(Member& member, std::size_t index, std::string& fra
                   [&](const TailEdit& it) { return it.author == tail_[index].author; });
   auto bytes = world::to_bytes(merged);
   if (!bytes) {  // together they are longer than an edit may be
-    add_to_frame(frame, *tail_[index].message);
+    frame += tail_[index].framed;
     return index + 1;
   }
   add_to_frame(frame, to_bytes(ServerMessage(Ordered{tail_[index].sequence, tail_[end - 1].sequence,

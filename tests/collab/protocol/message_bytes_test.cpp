@@ -20,7 +20,7 @@ std::vector<ClientMessage> client_messages() {
   hello.only_reads = true;
   const SharedPose pose{{1.0, 2.0, 3.0}, base::Quaternion(0.5, 0.5, 0.5, 0.5)};
   return {hello,
-          Want{4, 5, 6},
+          Fetch{std::string("\0hash", 5), 5, 6},
           Loaded{4},
           Submit{8, 7, {1, 2, 3}, std::string("\0edit", 5), 99},
           Select{kLeg, true},
@@ -33,11 +33,13 @@ std::vector<ClientMessage> client_messages() {
 }
 
 std::vector<ServerMessage> server_messages() {
-  return {Welcome{1, 2, 3, Role::Own, 4, 5, true, 6, 7, 8, 9, {10, 11}, 12},
+  return {Welcome{1, 2, 3, Role::Own, 4, 5, true, 6, 7, 8, 9, {10, 11}, 12, 13, "hash"},
           Refused{"no", Parting::NotAllowed},
-          Piece{1, 2, 3, "bytes"},
+          Piece{"hash", 2, "bytes"},
           Ordered{5, 5, 2, 1, "edit", true},
           Ordered{5, 9, 0, 0, "edits", false},
+          Ordered{5, 5, 2, 1, "outline", true, true},
+          Ordered{5, 5, 2, 1, "outline", false, true},
           Accepted{1, 2},
           Rejected{1, "why", 3},
           Durable{4},

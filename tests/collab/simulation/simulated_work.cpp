@@ -51,8 +51,8 @@ void SimulatedWork::make_client(Client& client, bool same_key) {
   if (client.talk)
     std::erase_if(refused_, [&](const auto& it) { return it.first == client.talk->replica().author(); });
   DesignAddress address{"server", 1, kDesign, token_, ""};
-  client.talk =
-      std::make_unique<Conversation>(address, ClientIdentity{client.key, "Ann", 1, "test"}, factory_);
+  client.talk = std::make_unique<Conversation>(address, ClientIdentity{client.key, "Ann", 1, "test"},
+                                               factory_, &client == &clients_.front() ? contents_ : nullptr);
   client.copy = std::make_shared<world::World>();
   client.talk->replica().on_change(
       [this, talk = client.talk.get(), copy = client.copy](const world::Edit* it) {
@@ -76,6 +76,7 @@ void SimulatedWork::start_server() {
   settings.room.fresh_snapshot_bytes = 4'000;  // small, so that all ways of joining occur
   settings.room.most_tail_bytes = 20'000;
   settings.room.piece_bytes = 256;
+  settings.room.content_bytes = 100;
   settings.room.merge_from = 6;
   settings.snapshot_edits = 30;
   settings.idle_time = 500;

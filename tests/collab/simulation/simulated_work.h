@@ -47,6 +47,26 @@ class RememberingLog final : public MemoryOpLog {
   std::set<std::pair<std::uint32_t, std::uint64_t>> appended_;
 };
 
+/// Contents in memory, the last few of them.
+class MemoryContents final : public ContentCache {
+ public:
+  ContentPointer find(const ContentHash& hash) override {
+    const auto found = contents_.find(hash);
+    return found == contents_.end() ? nullptr : found->second;
+  }
+  void keep(const ContentHash& hash, const ContentPointer& content) override {
+    constexpr std::size_t kMost = 8;
+    if (contents_.size() == kMost) contents_.erase(contents_.begin());
+    contents_[hash] = content;
+    ++kept_;
+  }
+  std::uint64_t kept() const { return kept_; }
+
+ private:
+  std::map<ContentHash, ContentPointer> contents_;
+  std::uint64_t kept_ = 0;
+};
+
 /// A server, its log and some clients in one thread and in virtual time, with everything that may befall them
 /// decided by a seed: connections that are cut, stand still or say things twice, kills of the server and of
 /// clients, and clocks that jump. The log is the disk: what it has taken survives, and a commit may reach it
@@ -62,6 +82,8 @@ class SimulatedWork {
   std::uint64_t restarts() const { return restarts_; }
   std::uint64_t dropped() const { return dropped_; }
   std::uint64_t conflicts() const { return conflicts_; }
+  /// Contents that were fetched by the client that keeps them.
+  std::uint64_t fetched() const { return contents_->kept(); }
 
  private:
   struct Flight {
@@ -107,6 +129,8 @@ class SimulatedWork {
   std::int64_t now_ = 1'000;
   std::int64_t wall_ = 1'700'000'000'000;
   RememberingLog log_;
+  /// Of the first client, through all its lives; the others keep nothing.
+  std::shared_ptr<MemoryContents> contents_ = std::make_shared<MemoryContents>();
   std::unique_ptr<Hub> hub_;
   std::int64_t server_back_ = 0;
   std::function<void()> work_done_;  // what the log's last work returned, until it is heard of

@@ -35,7 +35,7 @@ TEST(SimulatedWork, EndsWellWhateverHappens) {
   const std::uint64_t count = only ? 1 : std::uint64_t(repeats(10'000));
   constexpr int kMostFaults = 10;
   int faults = 0;
-  std::uint64_t ordered = 0, restarts = 0, dropped = 0, conflicts = 0;
+  std::uint64_t ordered = 0, restarts = 0, dropped = 0, conflicts = 0, fetched = 0;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     SimulatedWork work(seed, weather_of(seed), signer);
     const std::string fault = work.run();
@@ -45,6 +45,7 @@ TEST(SimulatedWork, EndsWellWhateverHappens) {
     restarts += work.restarts();
     dropped += work.dropped();
     conflicts += work.conflicts();
+    fetched += work.fetched();
   }
   // The weather was as rough as it is meant to be.
   if (only) return;
@@ -52,6 +53,7 @@ TEST(SimulatedWork, EndsWellWhateverHappens) {
   EXPECT_GT(restarts, count / 2);
   EXPECT_GT(dropped, count / 2);
   EXPECT_GT(conflicts, count / 10);
+  EXPECT_GT(fetched, count);
   RecordProperty("ordered", std::to_string(ordered));
 }
 
