@@ -1,27 +1,18 @@
 #include "crowd_figures.h"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <map>
 #include <memory>
-#include <optional>
-#include <sstream>
 
 #include "base/clock.h"
 #include "collab/client/joining.h"
 #include "collab/link/link_loop.h"
 #include "collab/protocol/address.h"
 #include "collab/protocol/message_bytes.h"
-#include "collab/server/token.h"
-#include "collab/storage/sqlite_op_log.h"
-#include "collab/storage/store_folder.h"
+#include "server_process.h"
 #include "world/edit/edit_bytes.h"
 
 namespace icome::benchmarks {
@@ -32,75 +23,6 @@ using namespace collab;
 constexpr const char* kDesign = "crowd";
 
 double seconds_now() { return 1e-9 * double(base::steady_nanoseconds()); }
-
-template <typename T>
-T demand(base::Result<T> result) {
-  if (result) return std::move(*result);
-  fmt::print(stderr, "{}\n", result.error().message);
-  std::exit(1);
-}
-
-/// icome-server as a process, with a store of its own. Ends with the object.
-class ServerProcess {
- public:
-  ServerProcess(const std::filesystem::path& program, const std::filesystem::path& folder) : store_(folder) {
-    int out[2];
-    if (::pipe(out) != 0) std::exit(1);
-    process_ = ::fork();
-    if (process_ == 0) {
-      ::dup2(out[1], STDOUT_FILENO);
-      ::execl(program.c_str(), program.c_str(), "serve", "--store", store_.c_str(), "--listen", "127.0.0.1:0",
-              "--links-an-address", "1000", "--json", nullptr);
-      ::_exit(1);
-    }
-    ::close(out[1]);
-    char letter = '\0';
-    while (::read(out[0], &letter, 1) == 1 && letter != '\n') {
-    }
-    ::close(out[0]);
-  }
-  ServerProcess(const ServerProcess&) = delete;
-  ServerProcess& operator=(const ServerProcess&) = delete;
-  ~ServerProcess() {
-    ::kill(process_, SIGTERM);
-    ::waitpid(process_, nullptr, 0);
-  }
-
-  DesignAddress invite() const {
-    const StoreFolder folder = demand(StoreFolder::open(store_));
-    const ServedAddress served = *demand(folder.address());
-    SqliteOpLog log = demand(SqliteOpLog::open(folder.designs()));
-    if (!demand(log.find(kDesign))) (void)log.create(kDesign);
-    const TokenSigner signer = demand(TokenSigner::open(folder.token_key()));
-    constexpr std::int64_t kHour = 3'600'000;
-    std::string token =
-        demand(signer.sign({demand(make_invitation_id()), kDesign, Role::Own, wall_milliseconds() + kHour}));
-    return {served.host, served.port, kDesign, std::move(token), served.fingerprint};
-  }
-
-  /// Processor time so far, s.
-  double used() const {
-    std::ifstream stat(fmt::format("/proc/{}/stat", process_));
-    std::string text((std::istreambuf_iterator<char>(stat)), {});
-    std::istringstream fields(text.substr(text.rfind(')') + 2));
-    std::string field;
-    double ticks = 0.0;
-    for (int i = 0; i < 13 && fields >> field; ++i)
-      if (i >= 11) ticks += std::stod(field);
-    return ticks / double(::sysconf(_SC_CLK_TCK));
-  }
-  /// Memory, kB.
-  double memory() const {
-    std::ifstream status(fmt::format("/proc/{}/status", process_));
-    for (std::string line; std::getline(status, line);)
-      if (line.starts_with("VmRSS:")) return std::stod(line.substr(6));
-    return 0.0;
-  }
-
- private:
-  std::filesystem::path store_;
-  pid_t process_ = -1;
-};
 
 /// Clients that cost little: they say and hear all that a client does, but keep no world. Each drags an
 /// object, whose place tells when it was sent. Owns their connections; all run in one thread.
@@ -288,7 +210,7 @@ double share_of(const std::vector<double>& sorted, double part) {
 CrowdRow crowd_row(const std::filesystem::path& program, const std::filesystem::path& folder, int clients,
                    const CrowdExtent& extent) {
   const ServerProcess server(program, folder);
-  const DesignAddress address = server.invite();
+  const DesignAddress address = server.invite(kDesign);
   (void)Crowd(address, 1);
   const double memory = server.memory();
   Crowd crowd(address, clients);
@@ -315,10 +237,8 @@ std::vector<CrowdRow> crowd_figures(const std::filesystem::path& program, const 
                                     const CrowdExtent& extent) {
   std::vector<CrowdRow> rows;
   for (const int clients : extent.clients) {
-    std::string pattern = (folder / "icome_crowd_XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) std::exit(1);
-    rows.push_back(crowd_row(program, pattern, clients, extent));
-    std::filesystem::remove_all(pattern);
+    const BenchFolder store(folder);
+    rows.push_back(crowd_row(program, store.path(), clients, extent));
   }
   return rows;
 }

@@ -1,10 +1,8 @@
 #include "store_figures.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <thread>
 
 #include "base/clock.h"
@@ -13,39 +11,12 @@
 #include "collab/storage/postgres_op_log.h"
 #include "collab/storage/postgres_server.h"
 #include "collab/storage/sqlite_op_log.h"
+#include "server_process.h"
 
 namespace icome::benchmarks {
 namespace {
 
 using namespace collab;
-
-template <typename T>
-T demand_value(base::Result<T> result) {
-  if (!result) {
-    fmt::print(stderr, "{}\n", result.error().message);
-    std::exit(1);
-  }
-  if constexpr (!std::is_void_v<T>) return std::move(*result);
-}
-
-/// A folder for files of stores, removed with the object.
-class RowFolder {
- public:
-  explicit RowFolder(const std::filesystem::path& within) {
-    std::string pattern = (within / "icome_bench_XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) std::exit(1);
-    path_ = pattern;
-  }
-  RowFolder(const RowFolder&) = delete;
-  RowFolder& operator=(const RowFolder&) = delete;
-  ~RowFolder() { std::filesystem::remove_all(path_); }
-  /// Another one with each call.
-  std::filesystem::path database() { return path_ / fmt::format("designs_{}.sqlite", ++databases_); }
-
- private:
-  std::filesystem::path path_;
-  int databases_ = 0;
-};
 
 /// Designs of a log, and edits for them, one after the other.
 class EditSource {
@@ -53,9 +24,9 @@ class EditSource {
   EditSource(OpLog& log, std::size_t designs, std::size_t edit_bytes) : log_(log), edit_bytes_(edit_bytes) {
     for (std::size_t i = 0; i < designs; ++i) {
       const std::string name = fmt::format("design {}", i);
-      demand_value(log.create(name));
-      const std::uint64_t fence = demand_value(log.lease(name, "bench", 3'600'000)).fence;
-      demand_value(log.author(name, "bench"));
+      demand(log.create(name));
+      const std::uint64_t fence = demand(log.lease(name, "bench", 3'600'000)).fence;
+      demand(log.author(name, "bench"));
       next_.push_back({.design = name, .expected_sequence = 0, .fence = fence});
     }
   }
@@ -69,7 +40,7 @@ class EditSource {
       append.batch.push_back({.sequence = sequence, .author = 1, .number = sequence, .edit = edit()});
     }
     for (const auto& problem : log_.append({next_.data(), designs})) {
-      if (problem) demand_value(base::Result<void>(base::fail(problem->message)));
+      if (problem) demand(base::Result<void>(base::fail(problem->message)));
     }
     for (std::size_t i = 0; i < designs; ++i) {
       next_[i].expected_sequence += next_[i].batch.size();
@@ -166,14 +137,16 @@ void add_rows(std::vector<StoreRow>& rows, const std::string& kind, Open&& open,
 
 std::vector<StoreRow> store_figures(const std::filesystem::path& folder, const StoreExtent& extent) {
   std::vector<StoreRow> rows;
-  RowFolder place(folder);
-  add_rows(
-      rows, "SQLite", [&] { return demand_value(SqliteOpLog::open(place.database())); }, extent);
+  const BenchFolder place(folder);
+  int databases = 0;
+  const auto open_sqlite = [&] {
+    return demand(SqliteOpLog::open(place.path() / fmt::format("designs_{}.sqlite", ++databases)));
+  };
+  add_rows(rows, "SQLite", open_sqlite, extent);
   if (PostgresServer::programs()) {
     PostgresServer server(folder);
     add_rows(
-        rows, "PostgreSQL", [&] { return demand_value(PostgresOpLog::open(server.fresh_database())); },
-        extent);
+        rows, "PostgreSQL", [&] { return demand(PostgresOpLog::open(server.fresh_database())); }, extent);
   } else {
     fmt::print("PostgreSQL is not installed, and not measured: tools/install-packages bench\n");
   }
