@@ -45,6 +45,7 @@ struct Entries {
   TechniquesOptions techniques;
   DevicesOptions devices;
   ServingOptions serving;
+  KeepOptions keep;
   DesktopCommandOptions desktop;
   TouchOptions touch;
   std::string friction;
@@ -510,6 +511,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   CLI::App& study = *app.add_subcommand("study", kStudySummary);
   add_study_options(study, entries.study);
   add_serving_commands(app, entries.serving);
+  add_keep(app, entries.keep);
   const CLI::App* const named = named_subcommand(app, 1, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
   if (argc > 1 && argv[1][0] != '-' && named == nullptr && !is_design_name(argv[1]))
@@ -557,6 +559,8 @@ CommandLine parse_command_line(int argc, char** argv) {
     command_line.devices = std::move(entries.devices);
   } else if (!entries.serving.task.empty()) {
     command_line.serving = std::move(entries.serving);
+  } else if (entries.keep.list || !entries.keep.address.empty()) {
+    command_line.keep = std::move(entries.keep);
   } else if (techniques.parsed()) {
     auto options = understood_techniques(entries);
     if (!options) return bad_usage(options.error().message, help);

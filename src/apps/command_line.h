@@ -6,6 +6,7 @@
 #include "apps/design/shot_options.h"
 #include "apps/desktop/desktop_options.h"
 #include "apps/devices/devices_options.h"
+#include "apps/remote/keep_command.h"
 #include "apps/serving/serving_options.h"
 #include "apps/stats/stats_options.h"
 #include "apps/study/study_options.h"
@@ -28,6 +29,7 @@ struct CommandLine {
   std::optional<TechniquesOptions> techniques;
   std::optional<DevicesOptions> devices;
   std::optional<ServingOptions> serving;
+  std::optional<KeepOptions> keep;
   std::optional<DesktopCommandOptions> desktop;
   int exit_code = 0;  // to return when none is set: help or version were printed, or an error
 };

@@ -37,6 +37,8 @@ struct SessionSettings {
   bool realtime_priority = true;  // asked for; refused, the servo runs as well as it can
   /// The folder in which work in progress is kept against crashes; empty: none.
   std::filesystem::path autosave_folder = {};
+  /// The folder with the designs of servers that are kept for offline work; empty: none can be.
+  std::filesystem::path kept_folder = {};
 };
 
 /// Something that a person should be told.

@@ -37,7 +37,7 @@ void SessionParts::take_opened(DesignLoader::Outcome& outcome) {
     std::vector<std::string> details = sentences(loaded.remarks, outcome.design);
     if (joined) {
       open_world(std::move(loaded.world), {});
-      begin_sharing(std::move(joined->connection));
+      joined->connection ? begin_sharing(std::move(*joined)) : take_kept_copy(*joined);
     } else {
       saver.has_read(outcome.design, loaded.stamp);
       open_world(std::move(loaded.world), outcome.design, work);
@@ -172,7 +172,10 @@ bool SessionFiles::saving() const { return parts_.saver.busy(); }
 const std::filesystem::path& SessionFiles::path() const { return parts_.path; }
 
 bool SessionFiles::modified() const {
-  if (parts_.shared) return parts_.history.trying() || parts_.shared->talk().replica().unacknowledged() > 0;
+  if (parts_.shared) {
+    const bool is_lost = !parts_.shared->kept && parts_.shared->talk().replica().unacknowledged() > 0;
+    return parts_.history.trying() || is_lost;
+  }
   return parts_.revisions.now() != parts_.saved_revision || !parts_.left_out.empty();
 }
 

@@ -23,6 +23,7 @@
 #include "session/hands/user_interaction.h"
 #include "session/revisions.h"
 #include "session/session.h"
+#include "session/sharing/join_design.h"
 #include "session/sharing/people_marks.h"
 #include "session/sharing/recent_addresses.h"
 #include "session/sharing/shared_design.h"
@@ -63,11 +64,6 @@ struct ClosingDevice {
   std::unique_ptr<BackgroundTask<bool>> task = nullptr;  // null: the servo may still use it
 };
 
-/// A connection that the thread which joined hands over.
-struct JoinedDesign {
-  std::unique_ptr<collab::Connection> connection = nullptr;
-};
-
 /// The parts of a session. All of them are main's, but for those of the session's other threads.
 struct SessionParts {
   SessionParts(SessionSettings settings, std::vector<std::unique_ptr<devices::PointerDevice>> devices);
@@ -87,7 +83,10 @@ struct SessionParts {
   world::EditSink sink();
 
   // session_sharing.cpp
-  void begin_sharing(std::unique_ptr<collab::Connection> connection);
+  void begin_sharing(JoinedDesign joined);
+  void take_kept_copy(const JoinedDesign& joined);
+  std::uint64_t first_free_number() const;
+  void tell_of_conflicts(std::size_t count);
   void leave_shared();
   void close_left();
   void take_shared();

@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "collab/client/joining.h"
 #include "collab/order/items.h"
+#include "collab/storage/design_state.h"
 #include "interaction/object_move.h"
 #include "session/session_parts.h"
 #include "world/edit/shared_edit.h"
@@ -19,29 +20,18 @@ using world::ObjectId;
 
 namespace {
 
-constexpr std::chrono::milliseconds kJoinPatience{3'000};  // with a server that is not to be reached
 constexpr std::chrono::milliseconds kMostLeaving{2'000};
 constexpr std::int64_t kPresentEvery = 33'000'000;  // ns
 
-/// Joins a design, and hands its connection over.
-base::Result<files::LoadedDesign> join(const collab::DesignAddress& address, const std::string& name,
-                                       JoinedDesign& joined, const files::DesignReadOptions& options) {
-  auto identity = collab::new_identity(name);
-  if (!identity) return tl::unexpected(identity.error());
-  auto connection =
-      collab::Connection::create(address, std::move(*identity), collab::FolderContents::of_user());
-  if (!connection) return tl::unexpected(connection.error());
-  const collab::Conversation& talk = (*connection)->talk();
-  const auto is_live = [&] { return talk.state() == ConversationState::Live; };
-  const auto stops = [&] { return options.progress && !options.progress(talk.progress()); };
-  const auto done = (*connection)->work_until(is_live, stops, kJoinPatience);
-  if (!done) return tl::unexpected(done.error());
-  if (!*done) return base::fail("interrupted");
-  files::LoadedDesign design;
-  design.world = talk.replica().world();
-  design.format = fmt::format("on {}:{}", address.host, address.port);
-  joined.connection = std::move(*connection);
-  return design;
+/// "just now", "3 minutes ago" and so on; ms.
+std::string ago(std::int64_t time) {
+  constexpr std::int64_t kMinute = 60'000, kHour = 60 * kMinute, kDay = 24 * kHour;
+  if (time < kMinute) return "just now";
+  const auto [unit, name] = time < kHour  ? std::pair(kMinute, "minute")
+                            : time < kDay ? std::pair(kHour, "hour")
+                                          : std::pair(kDay, "day");
+  const std::int64_t count = time / unit;
+  return fmt::format("{} {}{} ago", count, name, count == 1 ? "" : "s");
 }
 
 /// The edit alone where there is but one.
@@ -63,6 +53,7 @@ class SharedNews {
     parts_.holds_are_new = true;
     if (it.state == ConversationState::Away) {
       parts_.keep_against_crashes(true);
+      shared_.keep_copy();
       parts_.tell(Kind::ServerLost,
                   fmt::format("The connection to {} is lost: {} You can go on: what you do is sent when the "
                               "server is back.",
@@ -70,13 +61,7 @@ class SharedNews {
     } else if (it.state == ConversationState::Live) {
       shared_.note_who_left();
       parts_.tell(Kind::ServerBack, fmt::format("The connection to {} is back.", where));
-      if (const std::size_t count = talk_.conflicts().size(); count > 0)
-        parts_.tell(Kind::Conflicts,
-                    count == 1
-                        ? "One thing was changed both by you and by others while there was no connection."
-                        : fmt::format("{} things were changed both by you and by others while there was no "
-                                      "connection.",
-                                      count));
+      if (const std::size_t count = talk_.conflicts().size(); count > 0) parts_.tell_of_conflicts(count);
     } else if (!it.why.empty() && it.state == ConversationState::Joining) {
       parts_.tell(Kind::Notice, it.why);
     }
@@ -145,23 +130,59 @@ void SessionSharing::open(const std::string& text, const std::string& name) {
   }
   parts_.recovering.reset();
   parts_.joining = std::make_shared<JoinedDesign>();
-  parts_.loader.start(collab::shown_address(*address), [address = *address, name, joined = parts_.joining](
-                                                           const files::DesignReadOptions& options) {
-    return join(address, name, *joined, options);
-  });
+  parts_.loader.start(collab::shown_address(*address),
+                      [address = *address, name, kept = parts_.settings.kept_folder,
+                       joined = parts_.joining](const files::DesignReadOptions& options) {
+                        return join_design(address, name, kept, *joined, options);
+                      });
 }
 
-void SessionParts::begin_sharing(std::unique_ptr<collab::Connection> connection) {
-  shared = std::make_unique<SharedDesign>(std::move(connection));
-  const collab::Replica& replica = shared->talk().replica();
-  ids = world::IdSource(replica.author(), world.next_number(replica.author()));
-  keep_against_crashes(false);
-  for (const collab::Seen& it : shared->talk().take_seen())
-    if (const auto* const person = std::get_if<collab::Person>(&it); person && person->here)
-      SharedNews (*this)(*person);
-  addresses.add(collab::link_text(shared->talk().address()));
-  shared->talk().ask_for_choices();
+void SessionParts::begin_sharing(JoinedDesign joined) {
+  shared = std::make_unique<SharedDesign>(std::move(joined.connection));
+  shared->kept = std::move(joined.kept);
+  const bool is_away = !joined.why_away.empty();
+  collab::Conversation& talk = shared->talk();
+  const collab::Replica& replica = talk.replica();
+  ids = world::IdSource(replica.author(), first_free_number());
+  keep_against_crashes(is_away);
+  SharedNews news(*this);
+  for (const collab::Seen& it : talk.take_seen()) {
+    const auto* const person = std::get_if<collab::Person>(&it);
+    if (std::holds_alternative<collab::Dropped>(it) || (person != nullptr && person->here))
+      std::visit(news, it);
+  }
+  if (!joined.damage.empty()) tell(SessionEvent::Kind::Notice, joined.damage);
+  if (is_away)
+    tell(SessionEvent::Kind::ServerLost,
+         fmt::format("{} This is the copy that was kept here {}. You can go on: what you do is sent when the "
+                     "server is back.",
+                     joined.why_away, ago(collab::wall_milliseconds() - joined.kept_at)));
+  if (const auto conflicts = talk.conflicts().size(); conflicts > 0) tell_of_conflicts(conflicts);
+  addresses.add(collab::link_text(talk.address()));
   holds_are_new = true;
+}
+
+/// The server lets one in no more: what was kept becomes a design of one's own.
+void SessionParts::take_kept_copy(const JoinedDesign& joined) {
+  saved_revision = 0;  // it is in no file
+  tell(SessionEvent::Kind::SharingEnds,
+       joined.why_away + " This is the copy that was kept here: save it to keep it.");
+}
+
+/// Numbers for new things. A kept copy may be older than what this author did last, so that numbers begin far
+/// above those that it knows.
+std::uint64_t SessionParts::first_free_number() const {
+  constexpr std::uint64_t kNumbersOfALife = 1'000'000;
+  const std::uint64_t next = world.next_number(shared->talk().replica().author());
+  return shared->kept ? next + kNumbersOfALife : next;
+}
+
+void SessionParts::tell_of_conflicts(std::size_t count) {
+  tell(SessionEvent::Kind::Conflicts,
+       count == 1 ? "One thing was changed both by you and by others while there was no connection."
+                  : fmt::format("{} things were changed both by you and by others while there was no "
+                                "connection.",
+                                count));
 }
 
 /// Says goodbye on a thread of its own.
@@ -172,11 +193,17 @@ void SessionParts::leave_shared() {
   followed.reset();
   holds_are_new = true;
   std::shared_ptr<collab::Connection> connection = left->release();
-  leaving.push_back(std::make_unique<BackgroundTask<bool>>([connection]() -> base::Result<bool> {
+  leaving.push_back(std::make_unique<BackgroundTask<bool>>([connection,
+                                                            kept = left->kept]() -> base::Result<bool> {
     const auto until = base::steady_nanoseconds() + std::chrono::nanoseconds(kMostLeaving).count();
     connection->talk().leave();
-    return connection->work_until([&] { return connection->talk().state() != ConversationState::Live; },
-                                  [&] { return base::steady_nanoseconds() > until; }, kMostLeaving);
+    auto done = connection->work_until([&] { return connection->talk().state() != ConversationState::Live; },
+                                       [&] { return base::steady_nanoseconds() > until; }, kMostLeaving);
+    // What has not been sent is for the next time.
+    if (kept)
+      if (const auto written = write_copy(*kept, connection->talk().keep()); !written)
+        return tl::unexpected(written.error());
+    return done;
   }));
 }
 
@@ -200,12 +227,14 @@ void SessionParts::take_shared() {
   close_left();
   if (!shared) return;
   shared->work();
+  if (const auto kept = shared->keep_copy_if_due(); !kept)
+    tell(SessionEvent::Kind::Notice, "The design cannot be kept for offline work: " + kept.error().message);
   mirror(false);
   SharedNews news(*this);
   for (const collab::Seen& it : shared->talk().take_seen()) std::visit(news, it);
   collab::Conversation& talk = shared->talk();
   const std::uint32_t author = talk.replica().author();
-  if (author != ids.author()) ids = world::IdSource(author, world.next_number(author));
+  if (author != ids.author()) ids = world::IdSource(author, first_free_number());
   if (talk.state() == ConversationState::Ended) {
     tell(SessionEvent::Kind::SharingEnds,
          fmt::format("{}: {} The design stays open here: save it to keep it.",
@@ -377,6 +406,28 @@ base::Result<void> SessionSharing::resolve(const std::vector<collab::Choice>& ch
   parts_.revisions.performed();
   parts_.mirror(true);
   return resolved;
+}
+
+// ---- kept for offline work
+
+bool SessionSharing::is_kept() const { return parts_.shared && parts_.shared->kept; }
+
+void SessionSharing::keep(bool keeps) {
+  if (!parts_.shared || keeps == is_kept()) return;
+  const auto note = [this](const std::string& text) { parts_.tell(SessionEvent::Kind::Notice, text); };
+  const collab::Conversation& talk = parts_.shared->talk();
+  if (!keeps && talk.replica().unacknowledged() > 0)
+    return note("The server has not got all of your edits yet, so the copy is kept until it has.");
+  if (!keeps) {
+    parts_.shared->forget_copy();
+    return note("This design is not kept on this machine any more.");
+  }
+  if (parts_.settings.kept_folder.empty()) return note("There is no folder to keep designs in.");
+  auto kept = collab::KeptDesign::make(parts_.settings.kept_folder, talk.address());
+  if (!kept) return note(kept.error().message);
+  parts_.shared->kept = std::make_shared<const collab::KeptDesign>(std::move(*kept));
+  parts_.shared->keep_copy();
+  note("This design is kept on this machine now, and opens without its server, too.");
 }
 
 // ---- people

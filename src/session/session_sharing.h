@@ -47,6 +47,13 @@ class SessionSharing {
   /// Nothing: the open design is on no server.
   std::optional<State> state() const;
 
+  /// Is the open design kept on this machine, so that it can be opened without its server?
+  bool is_kept() const;
+  /// Keeps it from now on, or forgets the copy; an event tells which, or why not: there is no folder for it,
+  /// another program works with a kept copy of the same design, or the copy has edits that the server has
+  /// not.
+  void keep(bool keeps);
+
   /// A thing that was changed both here, while there was no connection, and by others.
   struct Conflict {
     std::string what = {};        // for people: "leg", "a shape"

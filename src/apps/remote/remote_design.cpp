@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/interrupt.h"
+#include "apps/terminal.h"
 #include "collab/client/integration.h"
 #include "collab/client/joining.h"
 #include "interaction/operations/arguments.h"
@@ -29,6 +30,38 @@ base::Result<void> work(collab::Connection& connection, const std::function<bool
   return {};
 }
 
+base::Result<std::unique_ptr<collab::Connection>> wait_until_live(
+    std::unique_ptr<collab::Connection> connection, StatusLine& status) {
+  const collab::Conversation& talk = connection->talk();
+  status.say("Connecting to " + collab::shown_address(talk.address()));
+  const auto show = [&] {
+    if (talk.progress() > 0.0) status.progress("Reading", std::round(100.0 * talk.progress()), 100.0, "%");
+  };
+  const auto is_live = [&] { return talk.state() == collab::ConversationState::Live; };
+  const auto joined = work(*connection, is_live, show, kJoinPatience);
+  status.clear();
+  if (!joined) return tl::unexpected(joined.error());
+  return connection;
+}
+
+/// The design as it is kept here, with what was done to it without the server; nothing: it is not kept.
+std::optional<files::LoadedDesign> kept_design(const std::string& text, const base::Error& why) {
+  const auto address = collab::address_to_join(text);
+  const auto folder = collab::KeptDesign::usual_folder();
+  if (!address || !folder || interrupted()) return std::nullopt;
+  const auto kept = collab::KeptDesign::find(*folder, *address);
+  if (!kept || !*kept) return std::nullopt;
+  const auto copy = (*kept)->read();
+  if (!copy || !*copy) return std::nullopt;
+  collab::Replica replica;
+  replica.resume(**copy);
+  tell(fmt::format("{} Read instead: the copy that is kept here.", why.message));
+  files::LoadedDesign design;
+  design.world = replica.world();
+  design.format = "kept for offline work";
+  return design;
+}
+
 }  // namespace
 
 bool is_remote(const std::filesystem::path& design) { return collab::is_design_address(design.string()); }
@@ -41,29 +74,36 @@ std::string shown_name(const std::filesystem::path& design) {
 
 base::Result<std::unique_ptr<collab::Connection>> join_design(const std::string& text, StatusLine& status,
                                                               bool only_reads) {
-  auto address = collab::address_to_join(text);
+  const auto address = collab::address_to_join(text);
   if (!address) return tl::unexpected(address.error());
   auto identity = collab::new_identity();
   if (!identity) return tl::unexpected(identity.error());
   identity->only_reads = only_reads;
   auto connection =
       collab::Connection::create(*address, std::move(*identity), collab::FolderContents::of_user());
-  if (!connection) return connection;
-  status.say("Connecting to " + collab::shown_address(*address));
-  const collab::Conversation& talk = (*connection)->talk();
-  const auto show = [&] {
-    if (talk.progress() > 0.0) status.progress("Reading", std::round(100.0 * talk.progress()), 100.0, "%");
-  };
-  const auto is_live = [&] { return talk.state() == collab::ConversationState::Live; };
-  const auto joined = work(**connection, is_live, show, kJoinPatience);
-  status.clear();
-  if (!joined) return tl::unexpected(joined.error());
-  return connection;
+  return connection ? wait_until_live(std::move(*connection), status) : std::move(connection);
+}
+
+base::Result<std::unique_ptr<collab::Connection>> join_design(const collab::DesignAddress& address,
+                                                              StatusLine& status,
+                                                              const collab::KeptDesign& kept) {
+  const auto copy = kept.read();
+  if (!copy) return tl::unexpected(copy.error());
+  auto identity = collab::new_identity();
+  if (!identity) return tl::unexpected(identity.error());
+  if (*copy) identity->key = (*copy)->key;
+  auto connection =
+      collab::Connection::create(address, std::move(*identity), collab::FolderContents::of_user());
+  if (connection && *copy) (*connection)->talk().resume(**copy);
+  return connection ? wait_until_live(std::move(*connection), status) : std::move(connection);
 }
 
 base::Result<files::LoadedDesign> fetch_design(const std::string& text, StatusLine& status) {
   auto connection = join_design(text, status, true);
-  if (!connection) return tl::unexpected(connection.error());
+  if (!connection) {
+    auto kept = kept_design(text, connection.error());
+    return kept ? base::Result<files::LoadedDesign>(std::move(*kept)) : tl::unexpected(connection.error());
+  }
   files::LoadedDesign design;
   design.world = (*connection)->talk().replica().world();
   design.format = "ICOME server";

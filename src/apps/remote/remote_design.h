@@ -7,6 +7,7 @@
 #include "apps/status_line.h"
 #include "base/result.h"
 #include "collab/client/connection.h"
+#include "collab/client/kept_design.h"
 #include "files/design.h"
 
 namespace icome::apps {
@@ -28,7 +29,14 @@ std::string shown_name(const std::filesystem::path& design);
 base::Result<std::unique_ptr<collab::Connection>> join_design(const std::string& address, StatusLine& status,
                                                               bool only_reads = false);
 
-/// Reads the design of an address.
+/// Connects to a design that is kept on this machine, goes on with its copy where there is one, and waits
+/// until it is here.
+base::Result<std::unique_ptr<collab::Connection>> join_design(const collab::DesignAddress& address,
+                                                              StatusLine& status,
+                                                              const collab::KeptDesign& kept);
+
+/// Reads the design of an address; where the server is not to be reached, the copy that is kept here, and
+/// says so.
 base::Result<files::LoadedDesign> fetch_design(const std::string& address, StatusLine& status);
 
 /// A model that was put into a design on a server.

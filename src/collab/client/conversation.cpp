@@ -290,6 +290,21 @@ void Conversation::go_live_if_caught_up() {
   change_state(ConversationState::Live, "");
 }
 
+std::optional<KeptCopy> Conversation::keep() const {
+  KeptCopy copy;
+  copy.link = link_text(address_);
+  copy.key = identity_.key;
+  copy.history = history_;
+  if (!replica_.keep_in(copy)) return std::nullopt;
+  return copy;
+}
+
+void Conversation::resume(const KeptCopy& copy) {
+  replica_.resume(copy);
+  history_ = copy.history;
+  actions_before_ = 0;
+}
+
 void Conversation::find_conflicts() {
   if (!before_) return;
   made_here_ = replica_.pending_edits();

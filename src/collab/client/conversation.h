@@ -99,6 +99,12 @@ class Conversation {
   base::Result<std::uint64_t> undo() { return turn(true); }
   base::Result<std::uint64_t> redo() { return turn(false); }
 
+  // ---- kept for another program
+  /// What the next program needs to go on from here; nothing: there is no durable world now.
+  std::optional<KeptCopy> keep() const;
+  /// Goes on from such a copy. Before the first connection, with the copy's key as one's own.
+  void resume(const KeptCopy& copy);
+
   // ---- work without a connection
   /// From now on a person chooses where own edits of a time without a connection and others' are in conflict:
   /// when it is back, nothing is sent until resolve().

@@ -33,6 +33,9 @@ bool replaces(const world::Edit& older, const world::Edit& newer) {
   return replaces_one(older, newer);
 }
 
+/// More than a program makes between two times at which its copy is kept.
+constexpr std::uint64_t kNumbersOfALife = 1'000'000;
+
 bool gets_in_the_way(Aspect mine, Aspect theirs) {
   return mine == theirs || mine == Aspect::Existence || theirs == Aspect::Existence;
 }
@@ -316,6 +319,36 @@ base::Result<std::vector<Dropped>> Replica::give_up_pending(const std::string& w
   if (auto done = take_pending_back(); !done) return tl::unexpected(done.error());
   while (!pending_.empty()) dropped.push_back(drop(0, why, 0));
   return dropped;
+}
+
+bool Replica::keep_in(KeptCopy& copy) const {
+  if (!can_resume() || !covered_.empty()) return false;
+  copy.sequence = base_;
+  copy.author = author_;
+  copy.last_number = last_number_;
+  copy.world = world_;
+  for (auto it = pending_.rbegin(); it != pending_.rend(); ++it)
+    if (it->inverse) (void)world::apply(copy.world, *it->inverse);
+  for (auto it = tentative_.rbegin(); it != tentative_.rend(); ++it)
+    (void)world::apply(copy.world, it->inverse);
+  for (const Tentative& it : tentative_)
+    if (it.number > 0) copy.edits.push_back({it.number, it.name, it.base, it.fences, it.edit});
+  for (const Pending& it : pending_) copy.edits.push_back({it.number, it.name, it.base, it.fences, it.edit});
+  return true;
+}
+
+void Replica::resume(const KeptCopy& copy) {
+  world_ = copy.world;
+  if (listener_) listener_(nullptr);
+  base_ = sequence_ = durable_ = copy.sequence;
+  has_base_ = true;
+  set_author(copy.author, copy.last_number + kNumbersOfALife);
+  for (const KeptEdit& it : copy.edits) {
+    pending_.push_back({it.number, it.name, it.edit, it.fences, it.base, false, true, std::nullopt});
+    own_.insert_or_assign(it.number, Own{world::EditGroup{}, 0, false});
+    done_.push_back({it.name, {it.number}});
+  }
+  redo_pending();
 }
 
 world::World Replica::world_of_server() {

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "collab/client/kept_copy.h"
 #include "collab/order/items.h"
 #include "collab/protocol/message.h"
 #include "world/edit/edit.h"
@@ -84,6 +85,14 @@ class Replica {
   /// then world() is without them.
   base::Result<void> put_aside();
   void refresh();
+
+  // ---- kept for another program
+  /// Puts the durable world, the own edits behind it and the author into a copy. False: there is no durable
+  /// world now.
+  bool keep_in(KeptCopy& copy) const;
+  /// Goes on from a copy, instead of an empty replica. Own edits are each an action to undo. New ones get
+  /// numbers far above those of the copy, as the program may have given some after it was kept.
+  void resume(const KeptCopy& copy);
 
   // ---- what was done while there was no connection
   /// The world without the own edits that the server has not ordered.

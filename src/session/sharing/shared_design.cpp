@@ -2,11 +2,15 @@
 
 #include <utility>
 
+#include "base/clock.h"
+#include "collab/storage/design_state.h"
+
 namespace icome::session {
 
 namespace {
 
 constexpr std::size_t kMostLines = 500;
+constexpr std::int64_t kKeepEvery = 30'000'000'000;  // ns
 /// A server lets nobody have very many things; those behind them may be changed all the same while nobody
 /// else has them.
 constexpr std::size_t kMostHeld = 200;
@@ -16,12 +20,56 @@ constexpr std::size_t kMostHeld = 200;
 SharedDesign::SharedDesign(std::unique_ptr<collab::Connection> connection)
     : connection_(std::move(connection)) {
   talk().replica().on_change([this](const world::Edit* edit) {
+    ++changes_;
     if (edit == nullptr) {
       way_ = {true, {}};
     } else if (!way_.is_another) {
       way_.edits.push_back(*edit);
     }
   });
+}
+
+base::Result<void> write_copy(const collab::KeptDesign& kept, std::optional<collab::KeptCopy> copy) {
+  if (!copy) return {};
+  copy->at = collab::wall_milliseconds();
+  return kept.write(*copy);
+}
+
+void SharedDesign::keep_copy() {
+  if (!kept) return;
+  keeps_again_ = keeping_ != nullptr;
+  if (keeps_again_) return;
+  kept_changes_ = changes_;
+  kept_at_ = base::steady_nanoseconds();
+  keeping_ = std::make_unique<BackgroundTask<bool>>(
+      [kept = kept, copy = talk().keep()]() mutable -> base::Result<bool> {
+        if (const auto written = write_copy(*kept, std::move(copy)); !written)
+          return tl::unexpected(written.error());
+        return true;
+      });
+}
+
+base::Result<void> SharedDesign::keep_copy_if_due() {
+  base::Result<void> result;
+  if (keeping_ && keeping_->is_done()) {
+    if (const auto written = keeping_->take(); !written) result = tl::unexpected(written.error());
+    keeping_.reset();
+  }
+  const bool is_old = changes_ != kept_changes_ && base::steady_nanoseconds() - kept_at_ > kKeepEvery;
+  if (!keeping_ && (std::exchange(keeps_again_, false) || is_old)) keep_copy();
+  return result;
+}
+
+std::unique_ptr<collab::Connection> SharedDesign::release() {
+  keeping_.reset();  // waits for what is being written
+  return std::move(connection_);
+}
+
+void SharedDesign::forget_copy() {
+  keeping_.reset();  // waits for what is being written
+  keeps_again_ = false;
+  if (kept) kept->remove();
+  kept.reset();
 }
 
 SharedDesign::Way SharedDesign::take_way() { return std::exchange(way_, {}); }

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "collab/client/connection.h"
+#include "collab/client/kept_design.h"
+#include "session/background_task.h"
 #include "session/sharing/shared_line.h"
 
 namespace icome::session {
@@ -40,6 +42,14 @@ class SharedDesign {
   /// The last action may be gone on with.
   bool goes_on = false;
 
+  /// Not null: the design is kept for offline work.
+  std::shared_ptr<const collab::KeptDesign> kept = nullptr;
+  /// Writes the copy anew, in the background.
+  void keep_copy();
+  /// Does so where it is old. Fails where the last time failed; once.
+  base::Result<void> keep_copy_if_due();
+  void forget_copy();
+
   /// Asks for these objects and gives back the others that were asked for.
   void hold(std::span<const world::ObjectId> objects);
   /// Asks for one, even if others are before.
@@ -65,11 +75,15 @@ class SharedDesign {
   void note_who_left();
 
   /// The connection, to be left in good order.
-  std::unique_ptr<collab::Connection> release() { return std::move(connection_); }
+  std::unique_ptr<collab::Connection> release();
 
  private:
   std::unique_ptr<collab::Connection> connection_;
   Way way_;
+  std::uint64_t changes_ = 0, kept_changes_ = 0;  // of the world, and those of them that the copy has
+  std::int64_t kept_at_ = 0;                      // ns
+  bool keeps_again_ = false;
+  std::unique_ptr<BackgroundTask<bool>> keeping_;
   std::set<world::ObjectId> held_;  // or asked for
   std::set<collab::Item> waited_;
   std::set<collab::Item> besides_;  // shapes and other things of the last actions
@@ -77,5 +91,8 @@ class SharedDesign {
   std::deque<SharedLine> lines_;
   std::uint64_t lines_so_far_ = 0;
 };
+
+/// Writes what a conversation keeps; nothing to keep is well, too.
+base::Result<void> write_copy(const collab::KeptDesign& kept, std::optional<collab::KeptCopy> copy);
 
 }  // namespace icome::session

@@ -51,10 +51,23 @@ void FileActions::fill(QMenu& menu) {
   add_action(menu, "file.integrate", "&Integrate a Design\u2026", {}, [this] {
     choose_and_integrate();
   })->setStatusTip("Puts all of another design into this one, under the selected object");
+  keep_ = add_action(menu, "file.keep", "&Keep for Offline Work", {}, [this] {
+    session_.sharing().keep(keep_->isChecked());
+    renew_keep();
+  });
+  keep_->setCheckable(true);
+  keep_->setStatusTip("Keeps a design of a server on this machine, so that it opens without the server, too");
+  QObject::connect(&menu, &QMenu::aboutToShow, &window_, [this] { renew_keep(); });
+  renew_keep();
   menu.addSeparator();
   save_ = add_action(menu, "file.save", "&Save", QKeySequence::Save, [this] { save(); });
   save_->setIcon(icon(Icon::Save));
   add_action(menu, "file.save_as", "Save &As\u2026", QKeySequence("Ctrl+Shift+S"), [this] { save_as(); });
+}
+
+void FileActions::renew_keep() {
+  keep_->setEnabled(session_.sharing().state().has_value());
+  keep_->setChecked(session_.sharing().is_kept());
 }
 
 void FileActions::fill_recent() {

@@ -62,6 +62,7 @@ class FileActions {
   void make_new();
   void forget_missing();
   void fill_recent();
+  void renew_keep();
   void begin_save(const std::filesystem::path& design);
   Note hear_of_cancelled(const session::SessionEvent& event);
   void ask(const std::function<void()>& then);
@@ -72,7 +73,7 @@ class FileActions {
   QWidget& window_;
   RecentFiles recent_;
   QMenu* recent_menu_ = nullptr;
-  QAction *open_ = nullptr, *save_ = nullptr;
+  QAction *open_ = nullptr, *save_ = nullptr, *keep_ = nullptr;
   std::function<bool()> begin_ = [] { return true; };
   std::function<void()> saving_ = [] {}, leaving_ = [] {};
   std::function<void()> then_ = {};                         // called once the work is saved

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/terminal_text.h"
+#include "session/sharing/join_design.h"
 #include "session/storage/autosave_files.h"
 #include "ui/window/connect_display.h"
 #include "ui/window/main_window.h"
@@ -31,6 +32,7 @@ int run_desktop(int argc, char** argv, const DesktopOptions& options, session::S
   const Theme theme = chosen_theme(options, kept);
   apply_theme(*application, theme);
   if (settings.autosave_folder.empty()) settings.autosave_folder = session::default_autosave_folder();
+  if (settings.kept_folder.empty()) settings.kept_folder = session::default_kept_folder();
   auto session = session::Session::create(std::move(settings));
   if (!session) {
     std::fprintf(stderr, "icome: %s\n", base::terminal_text(session.error().message).c_str());

@@ -63,6 +63,13 @@ void SimulatedWork::make_client(Client& client, bool same_key) {
         }
       });
   client.talk->ask_for_choices();
+  if (same_key && !client.kept.empty() && random_.index(2) == 0) {
+    const KeptCopy copy = kept_copy_from_bytes(client.kept, factory_).value();
+    client.talk->resume(copy);
+    ++resumed_;
+    resumed_edits_ += copy.edits.size();
+  }
+  if (!same_key) client.kept.clear();
   client.edits.reset();
   client.link.reset();
   client.up = client.down = {};
@@ -147,6 +154,8 @@ void SimulatedWork::act(Client& client) {
   if (random_.index(4) == 0) choose(talk);
   const Replica& replica = talk.replica();
   if (replica.author() == 0 || random_.uniform() >= weather_.edits) return;
+  if (random_.index(20) == 0)
+    if (const auto copy = talk.keep()) client.kept = to_bytes(*copy).value();
   if (!client.edits)
     client.edits = std::make_unique<world::RandomEdits>(
         random_.bits(), replica.author(), replica.world().next_number(replica.author()) + 10'000);

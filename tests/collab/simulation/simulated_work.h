@@ -83,6 +83,9 @@ class SimulatedWork {
   std::uint64_t dropped() const { return dropped_; }
   std::uint64_t conflicts() const { return conflicts_; }
   /// Contents that were fetched by the client that keeps them.
+  /// Clients that went on from a copy that was kept, and edits that those had.
+  std::uint64_t resumed() const { return resumed_; }
+  std::uint64_t resumed_edits() const { return resumed_edits_; }
   std::uint64_t fetched() const { return contents_->kept(); }
 
  private:
@@ -102,6 +105,7 @@ class SimulatedWork {
     std::optional<LinkId> link;
     std::int64_t next_try = 0;
     std::unique_ptr<world::RandomEdits> edits;
+    std::string kept;  // a KeptCopy as a file has it; empty: none yet
     Wire up, down;
   };
 
@@ -140,7 +144,7 @@ class SimulatedWork {
   std::int64_t next_tick_ = 0;
   std::string token_;
   std::set<std::pair<std::uint32_t, std::uint64_t>> acknowledged_, refused_;  // author and number
-  std::uint64_t restarts_ = 0, dropped_ = 0, conflicts_ = 0;
+  std::uint64_t restarts_ = 0, dropped_ = 0, conflicts_ = 0, resumed_ = 0, resumed_edits_ = 0;
   std::string fault_;
 };
 

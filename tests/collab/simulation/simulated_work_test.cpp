@@ -35,7 +35,8 @@ TEST(SimulatedWork, EndsWellWhateverHappens) {
   const std::uint64_t count = only ? 1 : std::uint64_t(repeats(10'000));
   constexpr int kMostFaults = 10;
   int faults = 0;
-  std::uint64_t ordered = 0, restarts = 0, dropped = 0, conflicts = 0, fetched = 0;
+  std::uint64_t ordered = 0, restarts = 0, dropped = 0, conflicts = 0, fetched = 0, resumed = 0,
+                resumed_edits = 0;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     SimulatedWork work(seed, weather_of(seed), signer);
     const std::string fault = work.run();
@@ -46,6 +47,8 @@ TEST(SimulatedWork, EndsWellWhateverHappens) {
     dropped += work.dropped();
     conflicts += work.conflicts();
     fetched += work.fetched();
+    resumed += work.resumed();
+    resumed_edits += work.resumed_edits();
   }
   // The weather was as rough as it is meant to be.
   if (only) return;
@@ -54,6 +57,8 @@ TEST(SimulatedWork, EndsWellWhateverHappens) {
   EXPECT_GT(dropped, count / 2);
   EXPECT_GT(conflicts, count / 10);
   EXPECT_GT(fetched, count);
+  EXPECT_GT(resumed, count / 10);
+  EXPECT_GT(resumed_edits, resumed / 4);
   RecordProperty("ordered", std::to_string(ordered));
 }
 

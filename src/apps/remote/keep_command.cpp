@@ -1,0 +1,138 @@
+#include "apps/remote/keep_command.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "apps/interrupt.h"
+#include "apps/remote/remote_design.h"
+#include "apps/serving/serving_help.h"
+#include "apps/terminal.h"
+#include "collab/client/joining.h"
+#include "collab/client/kept_design.h"
+#include "collab/storage/design_state.h"
+
+namespace icome::apps {
+namespace {
+
+constexpr const char* kKeepNotes =
+    "Examples:\n"
+    "  icome keep 'icome://...'                    fetch the design; again: bring the copy up to date\n"
+    "  icome keep --list                           what is kept, since when, and what was not sent yet\n"
+    "  icome keep 'icome://...' --forget\n"
+    "\n"
+    "While the server is away, icome LINK opens the copy: work on it, and what you do is sent when the "
+    "server\n"
+    "is back. info, shot, touch and convert read the copy then. In the window: File > Keep for Offline "
+    "Work.\n"
+    "The copies are in icome/kept in $XDG_DATA_HOME or ~/.local/share, for you only: they hold the links.";
+
+std::string shown_time(std::int64_t at) {
+  return fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(std::time_t(at / 1'000)));
+}
+
+int failed(const base::Error& error) {
+  tell(error.message);
+  return kFailed;
+}
+
+int list_kept(const std::filesystem::path& folder, bool json) {
+  nlohmann::json rows = nlohmann::json::array();
+  std::string text;
+  int code = 0;
+  for (const std::filesystem::path& place : collab::KeptDesign::all(folder)) {
+    const auto copy = collab::KeptDesign::read(place);
+    if (!copy || !*copy) {
+      if (!copy) code = failed(copy.error());
+      continue;
+    }
+    const collab::KeptCopy& it = **copy;
+    const std::string design = shown_name(it.link);
+    rows.push_back({{"design", design},
+                    {"kept", it.at},
+                    {"sequence", it.sequence},
+                    {"objects", it.world.objects().size()},
+                    {"unsent", it.edits.size()}});
+    text += fmt::format("{}  kept {}, edit {}, {} object{}, {}\n", design, shown_time(it.at), it.sequence,
+                        it.world.objects().size(), it.world.objects().size() == 1 ? "" : "s",
+                        it.edits.empty() ? "all sent" : fmt::format("{} not sent", it.edits.size()));
+  }
+  if (text.empty()) text = "No design is kept for offline work.\n";
+  const int printed = print_answer(json ? nlohmann::json{{"kept", rows}}.dump() + "\n" : text);
+  return code != 0 ? code : printed;
+}
+
+/// Forgets the copy, unless that would lose work.
+int forget_kept(const std::filesystem::path& folder, const collab::DesignAddress& address) {
+  const auto kept = collab::KeptDesign::find(folder, address);
+  if (!kept) return failed({collab::shown_address(address) + ": is not kept here."});
+  if (!*kept) return failed({"Another program works with the copy that is kept here: close it first."});
+  if (const auto copy = (*kept)->read(); copy && *copy && !(*copy)->edits.empty() &&
+                                         !ask(fmt::format("{} edits were not sent yet, and go with the copy. "
+                                                          "Forget it all the same?",
+                                                          (*copy)->edits.size())))
+    return failed({"Nothing was forgotten."});
+  (*kept)->remove();
+  tell(collab::shown_address(address) + ": is not kept any more.");
+  return 0;
+}
+
+/// Fetches the design, or what is new of it, and sends what was done without the server.
+int keep_design(const std::filesystem::path& folder, const collab::DesignAddress& address, bool json) {
+  const auto kept = collab::KeptDesign::make(folder, address);
+  if (!kept) return failed(kept.error());
+  StatusLine status;
+  auto connection = join_design(address, status, *kept);
+  if (!connection) return failed(connection.error());
+  if (const auto sent = wait_until_durable(**connection, status); !sent) return failed(sent.error());
+  collab::Conversation& talk = (*connection)->talk();
+  auto copy = talk.keep();
+  leave_design(**connection);
+  if (!copy) return failed({"The design changes too fast to be kept now: try again."});
+  copy->at = collab::wall_milliseconds();
+  if (const auto written = kept->write(*copy); !written) return failed(written.error());
+  const std::string shown = collab::shown_address(address);
+  if (json)
+    return print_answer(nlohmann::json{{"design", shown},
+                                       {"kept", copy->at},
+                                       {"sequence", copy->sequence},
+                                       {"objects", copy->world.objects().size()}}
+                            .dump() +
+                        "\n");
+  return print_answer(fmt::format("{}: kept, with edit {}. icome opens it without its server, too.\n", shown,
+                                  copy->sequence));
+}
+
+}  // namespace
+
+void add_keep(CLI::App& app, KeepOptions& options) {
+  CLI::App& keep = *app.add_subcommand("keep", "Keep a design of a server on this machine, for offline work");
+  keep.footer(kKeepNotes);
+  auto* const address = keep.add_option("LINK", options.address, kAddressHelp)->type_name("");
+  auto* const forget = keep.add_flag("--forget", options.forget, "Remove the copy")->needs(address);
+  keep.add_flag("--list", options.list, "Name the designs that are kept")
+      ->excludes(address)
+      ->excludes(forget);
+  keep.add_flag("--json", options.json,
+                "As JSON: design, kept (ms since 1970), sequence, objects; in a list "
+                "also unsent");
+  keep.callback([&options] {
+    if (!options.list && options.address.empty())
+      throw CLI::RequiredError("keep: give the link of a design, or --list");
+  });
+}
+
+int run_keep(const KeepOptions& options) {
+  catch_interrupts();
+  const auto folder = collab::KeptDesign::usual_folder();
+  if (!folder) return failed(folder.error());
+  if (options.list) return list_kept(*folder, options.json);
+  const auto address = collab::address_to_join(options.address);
+  if (!address) return failed(address.error());
+  return options.forget ? forget_kept(*folder, *address) : keep_design(*folder, *address, options.json);
+}
+
+}  // namespace icome::apps

@@ -1,0 +1,45 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "base/result.h"
+#include "collab/client/kept_copy.h"
+#include "collab/protocol/address.h"
+#include "io/open_file.h"
+
+namespace icome::collab {
+
+/// A design of a server that is kept on this machine, so that one can work on it without the server: a folder
+/// with its copy, for its owner only, which one program uses at a time.
+class KeptDesign {
+ public:
+  /// The folder with all of them: icome/kept in $XDG_DATA_HOME or ~/.local/share.
+  static base::Result<std::filesystem::path> usual_folder();
+
+  /// Begins to keep a design, or goes on. Fails where another program has it.
+  static base::Result<KeptDesign> make(const std::filesystem::path& folder, const DesignAddress& address);
+  /// Nothing: the design is not kept here. An empty optional in it: it is, and another program has it.
+  static std::optional<std::optional<KeptDesign>> find(const std::filesystem::path& folder,
+                                                       const DesignAddress& address);
+  /// The folders of all that are kept.
+  static std::vector<std::filesystem::path> all(const std::filesystem::path& folder);
+
+  /// Nothing: none was written yet.
+  base::Result<std::optional<KeptCopy>> read() const;
+  /// As read(), while another program may work with it.
+  static base::Result<std::optional<KeptCopy>> read(const std::filesystem::path& place);
+  /// Replaces the copy, whole or not at all.
+  base::Result<void> write(const KeptCopy& copy) const;
+  /// Keeps it no longer.
+  void remove() const;
+
+ private:
+  KeptDesign(std::filesystem::path place, io::OpenFile lock)
+      : place_(std::move(place)), lock_(std::move(lock)) {}
+
+  std::filesystem::path place_;
+  io::OpenFile lock_;
+};
+
+}  // namespace icome::collab
