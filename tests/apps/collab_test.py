@@ -1,4 +1,5 @@
 """Designs on a server: `icome serve`, `invite`, `revoke`, `store`, and links wherever a command takes a file."""
+import hashlib
 import json
 import os
 import pathlib
@@ -191,6 +192,52 @@ class LinkTest(SharedTest):
         server.end()
         with sqlite3.connect(self.store / "designs.sqlite") as store:
             self.assertEqual(store.execute("SELECT count(*) FROM authors").fetchone(), (0,))
+
+    def test_a_kept_design_is_read_without_its_server(self):
+        os.environ["XDG_DATA_HOME"] = str(self.folder / "data")
+        self.addCleanup(os.environ.pop, "XDG_DATA_HOME")
+        server = self.serve()
+        link = server.invite()
+        self.edit(link, BOX)
+        self.assertIn("No design", self.succeeds("keep", "--list").stdout)
+        kept = json.loads(self.succeeds("keep", link, "--json").stdout)
+        self.assertEqual((kept["sequence"], kept["objects"]), (1, 1))
+        self.edit(link, line(op="create", shape="box", name="later"))
+        self.assertEqual(json.loads(self.succeeds("keep", link, "--json").stdout)["objects"], 2)
+        server.end()
+        done = self.succeeds("info", link, "--json")
+        self.assertEqual(json.loads(done.stdout)["objects"], 2)
+        self.assertIn("kept here", done.stderr)
+        self.assertNotRegex(done.stdout + done.stderr, SECRET)
+        self.succeeds("convert", link, self.folder / "offline.wrl")
+        rows = json.loads(self.succeeds("keep", "--list", "--json").stdout)["kept"]
+        self.assertEqual([(it["objects"], it["unsent"]) for it in rows], [(2, 0)])
+        self.assertNotRegex(json.dumps(rows), SECRET)
+        folder = self.folder / "data" / "icome" / "kept"
+        self.assertEqual(folder.stat().st_mode & 0o077, 0)
+        self.succeeds("keep", link, "--forget")
+        self.fails("keep", link, "--forget", code=1, saying="not kept")
+        self.fails("info", link, code=1, saying=server.listen)
+        self.fails("keep", code=2, saying="--list")
+
+    def test_shapes_and_pictures_are_fetched_once(self):
+        os.environ["XDG_CACHE_HOME"] = str(self.folder / "cache")
+        self.addCleanup(os.environ.pop, "XDG_CACHE_HOME")
+        link = self.serve().invite()
+        self.succeeds("convert", DEMO, link)
+        self.succeeds("convert", link, self.folder / "one.wrl")
+        contents = self.folder / "cache" / "icome" / "contents"
+        files = {it.name: it.stat().st_size for it in contents.iterdir()}
+        self.assertTrue(files)
+        for name, size in files.items():
+            self.assertEqual(hashlib.sha256((contents / name).read_bytes()).hexdigest(), name)
+            self.assertGreaterEqual(size, 1 << 14)
+        # A damaged one is fetched again.
+        broken = contents / min(files)
+        broken.write_bytes(b"damaged")
+        self.succeeds("convert", link, self.folder / "other.wrl")
+        self.assertEqual((self.folder / "one.wrl").read_bytes(), (self.folder / "other.wrl").read_bytes())
+        self.assertEqual({it.name: it.stat().st_size for it in contents.iterdir()}, files)
 
     def test_a_server_that_is_not_there_is_told(self):
         server = self.serve()

@@ -295,6 +295,7 @@ std::optional<KeptCopy> Conversation::keep() const {
   copy.link = link_text(address_);
   copy.key = identity_.key;
   copy.history = history_;
+  copy.role = role_;
   if (!replica_.keep_in(copy)) return std::nullopt;
   return copy;
 }
@@ -302,6 +303,7 @@ std::optional<KeptCopy> Conversation::keep() const {
 void Conversation::resume(const KeptCopy& copy) {
   replica_.resume(copy);
   history_ = copy.history;
+  role_ = copy.role;
   actions_before_ = 0;
 }
 

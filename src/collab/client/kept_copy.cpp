@@ -23,9 +23,9 @@ tl::unexpected<base::Error> unreadable() {
 
 base::Result<std::string> to_bytes(const KeptCopy& copy) {
   std::string bytes;
-  add_to_frame(bytes,
-               fmt::format("{}\n{}\n{}\n{} {} {} {} {} {}\n", kFirstWord, copy.link, copy.key, copy.at,
-                           copy.history, copy.sequence, copy.author, copy.last_number, copy.edits.size()));
+  add_to_frame(bytes, fmt::format("{}\n{}\n{}\n{} {} {} {} {} {} {}\n", kFirstWord, copy.link, copy.key,
+                                  copy.at, copy.history, copy.sequence, copy.author, copy.last_number,
+                                  int(copy.role), copy.edits.size()));
   const auto world = world_to_bytes(copy.world);
   if (!world) return world;
   add_to_frame(bytes, *world);
@@ -45,11 +45,13 @@ base::Result<KeptCopy> kept_copy_from_bytes(std::string_view bytes, const world:
   std::string word;
   KeptCopy copy;
   std::size_t edits = 0;
+  unsigned role = 0;
   std::getline(head, word);
   std::getline(head, copy.link);
   std::getline(head, copy.key);
-  head >> copy.at >> copy.history >> copy.sequence >> copy.author >> copy.last_number >> edits;
-  if (!head || word != kFirstWord) return unreadable();
+  head >> copy.at >> copy.history >> copy.sequence >> copy.author >> copy.last_number >> role >> edits;
+  if (!head || word != kFirstWord || role > unsigned(Role::Own)) return unreadable();
+  copy.role = Role(role);
   const auto world_bytes = next_in_frame(bytes);
   if (!world_bytes) return unreadable();
   auto world = world_from_bytes(*world_bytes, factory);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "collab/protocol/message.h"
 #include "world/edit/edit.h"
 #include "world/shape/geometry_factory.h"
 #include "world/world.h"
@@ -30,6 +31,7 @@ struct KeptCopy {
   std::uint64_t sequence = 0;  // of the world's last edit
   std::uint32_t author = 0;
   std::uint64_t last_number = 0;  // of own edits
+  Role role = Role::View;
   world::World world = {};
   std::vector<KeptEdit> edits = {};
 };

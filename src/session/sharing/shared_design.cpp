@@ -10,7 +10,8 @@ namespace icome::session {
 namespace {
 
 constexpr std::size_t kMostLines = 500;
-constexpr std::int64_t kKeepEvery = 30'000'000'000;  // ns
+constexpr std::int64_t kKeepEvery = 30'000'000'000;     // ns
+constexpr std::int64_t kKeepAwayEvery = 3'000'000'000;  // while there is no server that has the edits
 /// A server lets nobody have very many things; those behind them may be changed all the same while nobody
 /// else has them.
 constexpr std::size_t kMostHeld = 200;
@@ -55,7 +56,9 @@ base::Result<void> SharedDesign::keep_copy_if_due() {
     if (const auto written = keeping_->take(); !written) result = tl::unexpected(written.error());
     keeping_.reset();
   }
-  const bool is_old = changes_ != kept_changes_ && base::steady_nanoseconds() - kept_at_ > kKeepEvery;
+  const bool is_away = talk().state() == collab::ConversationState::Away;
+  const bool is_old = changes_ != kept_changes_ &&
+                      base::steady_nanoseconds() - kept_at_ > (is_away ? kKeepAwayEvery : kKeepEvery);
   if (!keeping_ && (std::exchange(keeps_again_, false) || is_old)) keep_copy();
   return result;
 }
