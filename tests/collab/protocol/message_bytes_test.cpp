@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "repeats.h"
+#include "collab/mutations.h"
 
 namespace icome::collab {
 namespace {
@@ -123,13 +123,8 @@ TEST(MessageBytes, SurvivesEveryMutation) {
   for (const ServerMessage& message : server_messages())
     add_to_frame(frames.emplace_back(), to_bytes(message));
   int good = 0, bad = 0;
-  for (int i = 0; i < repeats(200'000); ++i) {
-    std::string bytes = frames[random.index(frames.size())];
-    for (std::uint64_t change = 0; change <= random.index(4); ++change) {
-      const std::size_t at = random.index(bytes.size());
-      bytes[at] = random.index(2) == 0 ? char(random.bits()) : char(bytes[at] ^ (1 << random.index(8)));
-    }
-    if (random.index(4) == 0) bytes.resize(random.index(bytes.size()));
+  for (int i = 0; i < mutations(1'000'000); ++i) {
+    const std::string bytes = mutated(frames[random.index(frames.size())], random);
     std::string_view rest = bytes;
     while (!rest.empty()) {
       const auto next = next_in_frame(rest);

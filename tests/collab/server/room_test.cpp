@@ -78,6 +78,51 @@ TEST_F(RoomTest, TellsAllButTheAuthorOfAMoveAndAllOfACreation) {
   EXPECT_FALSE(theirs.front().edit.empty());
 }
 
+TEST_F(RoomTest, TellsWhoMadeAnEditAtOnceThatItIsDurableAndOthersSoon) {
+  join(1, 1, Role::Edit, "Ann");
+  join(2, 2, Role::Edit, "Bob");
+  heard(1);
+  heard(2);
+  submit(1, 1, world::PlaceObject{table_, world::at(1, 0, 0)});
+  heard(1);
+  heard(2);
+  room_->committed(room_->sequence());
+  EXPECT_EQ(heard_of<Durable>(1).size(), 1U);
+  EXPECT_EQ(heard_of<Durable>(2).size(), 0U);
+  now_ += settings_.durable_gap;
+  EXPECT_EQ(heard_of<Durable>(2).size(), 1U);
+  EXPECT_EQ(heard_of<Durable>(2).size(), 0U);
+}
+
+TEST_F(RoomTest, KnowsWhoWaitsForAnAnswerAboutTheFloor) {
+  join(1, 1, Role::Edit, "Ann");
+  EXPECT_FALSE(room_->has_answer(1));
+  say(1, Select{item_of(table_), false});
+  EXPECT_TRUE(room_->has_answer(1));
+  heard(1);
+  EXPECT_FALSE(room_->has_answer(1));
+}
+
+TEST_F(RoomTest, GivesTheSnapshotThatSomebodyLoadsToItsEnd) {
+  settings_.fresh_snapshot_bytes = 1;
+  open({});
+  room_->join(1, {.author = 1, .role = Role::Edit, .name = "Ann"}, now_);
+  const auto welcome = heard_of<Welcome>(1).at(0);
+  // Others change the design, and whoever comes now gets a newer snapshot.
+  join(2, 2, Role::Edit, "Bob");
+  submit(2, 1, world::PlaceObject{table_, world::at(1, 0, 0)});
+  room_->join(3, {.author = 3, .role = Role::Edit, .name = "Eve"}, now_);
+  EXPECT_NE(heard_of<Welcome>(3).at(0).snapshot_hash, welcome.snapshot_hash);
+  say(1, Fetch{welcome.snapshot_hash, 0, kMostWanted});
+  const auto pieces = heard_of<Piece>(1);
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(pieces[0].bytes.size(), welcome.snapshot_bytes);
+  say(1, Loaded{welcome.snapshot});
+  EXPECT_EQ(heard_of<Ordered>(1).size(), 1U) << "and then the edits behind it";
+  say(1, Fetch{welcome.snapshot_hash, 0, kMostWanted});
+  EXPECT_TRUE(heard_of<Piece>(1).at(0).bytes.empty()) << "nobody needs it any more";
+}
+
 TEST_F(RoomTest, TakesNothingOfWhoMayOnlyLook) {
   join(1, 1, Role::View, "Eve");
   for (int i = 0; i < 100; ++i) say(1, Submit{1, 0, {}, std::string(1'000'000, 'x'), 200'000'000});
