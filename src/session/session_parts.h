@@ -85,7 +85,6 @@ struct SessionParts {
   // session_sharing.cpp
   void begin_sharing(JoinedDesign joined);
   void take_kept_copy(const JoinedDesign& joined);
-  std::uint64_t first_free_number() const;
   void tell_of_conflicts(std::size_t count);
   void leave_shared();
   void close_left();

@@ -143,15 +143,20 @@ void SessionParts::begin_sharing(JoinedDesign joined) {
   const bool is_away = !joined.why_away.empty();
   collab::Conversation& talk = shared->talk();
   const collab::Replica& replica = talk.replica();
-  ids = world::IdSource(replica.author(), first_free_number());
+  ids = world::IdSource(replica.author(), replica.first_free_number());
   keep_against_crashes(is_away);
   SharedNews news(*this);
   for (const collab::Seen& it : talk.take_seen()) {
     const auto* const person = std::get_if<collab::Person>(&it);
-    if (std::holds_alternative<collab::Dropped>(it) || (person != nullptr && person->here))
+    const auto* const state = std::get_if<collab::SeenState>(&it);
+    const bool is_note = state != nullptr && state->state == ConversationState::Joining;
+    if (is_note || std::holds_alternative<collab::Dropped>(it) || (person != nullptr && person->here))
       std::visit(news, it);
   }
-  if (!joined.damage.empty()) tell(SessionEvent::Kind::Notice, joined.damage);
+  if (!joined.damage.empty()) {
+    tell(SessionEvent::Kind::Notice, joined.damage);
+    shared->keep_copy();
+  }
   if (is_away)
     tell(SessionEvent::Kind::ServerLost,
          fmt::format("{} This is the copy that was kept here {}. You can go on: what you do is sent when the "
@@ -167,14 +172,6 @@ void SessionParts::take_kept_copy(const JoinedDesign& joined) {
   saved_revision = 0;  // it is in no file
   tell(SessionEvent::Kind::SharingEnds,
        joined.why_away + " This is the copy that was kept here: save it to keep it.");
-}
-
-/// Numbers for new things. A kept copy may be older than what this author did last, so that numbers begin far
-/// above those that it knows.
-std::uint64_t SessionParts::first_free_number() const {
-  constexpr std::uint64_t kNumbersOfALife = 1'000'000;
-  const std::uint64_t next = world.next_number(shared->talk().replica().author());
-  return shared->kept ? next + kNumbersOfALife : next;
 }
 
 void SessionParts::tell_of_conflicts(std::size_t count) {
@@ -234,7 +231,7 @@ void SessionParts::take_shared() {
   for (const collab::Seen& it : shared->talk().take_seen()) std::visit(news, it);
   collab::Conversation& talk = shared->talk();
   const std::uint32_t author = talk.replica().author();
-  if (author != ids.author()) ids = world::IdSource(author, first_free_number());
+  if (author != ids.author()) ids = world::IdSource(author, talk.replica().first_free_number());
   if (talk.state() == ConversationState::Ended) {
     tell(SessionEvent::Kind::SharingEnds,
          fmt::format("{}: {} The design stays open here: save it to keep it.",

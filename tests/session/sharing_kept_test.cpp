@@ -158,7 +158,8 @@ TEST_F(SharingKept, ADamagedCopyKeepsNobodyFromTheServer) {
   EXPECT_TRUE(was_told(SessionEvent::Kind::Notice)) << "the damage";
   EXPECT_EQ(count_of(*ann, "leg"), 1U);
   EXPECT_EQ(ann->sharing().state()->connection, ConversationState::Live);
-  EXPECT_TRUE(fs::exists(copy)) << "somebody may save something of it";
+  EXPECT_TRUE(fs::exists(copy.string() + ".former")) << "somebody may save something of it";
+  run_until(*ann, [&] { return fs::exists(copy); });
 }
 
 TEST_F(SharingKept, IsAnotherProgramsOnlyOnce) {

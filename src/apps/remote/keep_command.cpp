@@ -80,19 +80,59 @@ int forget_kept(const std::filesystem::path& folder, const collab::DesignAddress
   return 0;
 }
 
+/// The copy that there is, if any; a damaged one is put aside.
+std::optional<collab::KeptCopy> former_copy(const collab::KeptDesign& kept) {
+  auto copy = kept.read();
+  if (copy) return std::move(*copy);
+  tell(copy.error().message + " It is put aside as copy.former, and the design is fetched anew.");
+  kept.put_aside();
+  return std::nullopt;
+}
+
+/// Sends what was done without the server, and tells what became of it.
+base::Result<void> send_former(collab::Connection& connection, const collab::KeptCopy& former,
+                               StatusLine& status) {
+  if (const std::size_t count = connection.talk().conflicts().size(); count > 0) {
+    leave_design(connection);
+    return base::fail(fmt::format(
+        "{}: {} both here, without the server, and by others. Open it in the window (icome LINK) to choose; "
+        "nothing was sent.",
+        collab::shown_address(connection.talk().address()),
+        count == 1 ? "one thing was changed" : fmt::format("{} things were changed", count)));
+  }
+  if (const auto sent = wait_until_durable(connection, status); !sent) return sent;
+  for (const collab::Seen& it : connection.talk().take_seen())
+    if (const auto* const dropped = std::get_if<collab::Dropped>(&it))
+      tell(fmt::format("\"{}\" did not come to be: {}", dropped->name, dropped->why));
+  const std::size_t count = former.edits.size();
+  if (count > 0)
+    tell(count == 1 ? "One edit that was made without the server was sent."
+                    : fmt::format("{} edits that were made without the server were sent.", count));
+  return {};
+}
+
 /// Fetches the design, or what is new of it, and sends what was done without the server.
 int keep_design(const std::filesystem::path& folder, const collab::DesignAddress& address, bool json) {
   const auto kept = collab::KeptDesign::make(folder, address);
   if (!kept) return failed(kept.error());
   StatusLine status;
-  auto connection = join_design(address, status, *kept);
+  const auto former = former_copy(*kept);
+  auto connection =
+      former ? join_design(address, status, *kept, *former) : join_design(collab::link_text(address), status);
   if (!connection) return failed(connection.error());
-  if (const auto sent = wait_until_durable(**connection, status); !sent) return failed(sent.error());
+  if (former)
+    if (const auto sent = send_former(**connection, *former, status); !sent) return failed(sent.error());
   collab::Conversation& talk = (*connection)->talk();
   auto copy = talk.keep();
   leave_design(**connection);
   if (!copy) return failed({"The design changes too fast to be kept now: try again."});
   copy->at = collab::wall_milliseconds();
+  if (former && former->history != copy->history) {
+    tell(
+        "The design was restored from an earlier state: the copy of the later one is put aside as "
+        "copy.former.");
+    kept->put_aside();
+  }
   if (const auto written = kept->write(*copy); !written) return failed(written.error());
   const std::string shown = collab::shown_address(address);
   if (json)

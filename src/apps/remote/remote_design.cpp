@@ -30,8 +30,9 @@ base::Result<void> work(collab::Connection& connection, const std::function<bool
   return {};
 }
 
+/// `is_away`: it failed as the server is not to be reached.
 base::Result<std::unique_ptr<collab::Connection>> wait_until_live(
-    std::unique_ptr<collab::Connection> connection, StatusLine& status) {
+    std::unique_ptr<collab::Connection> connection, StatusLine& status, bool* is_away = nullptr) {
   const collab::Conversation& talk = connection->talk();
   status.say("Connecting to " + collab::shown_address(talk.address()));
   const auto show = [&] {
@@ -40,19 +41,20 @@ base::Result<std::unique_ptr<collab::Connection>> wait_until_live(
   const auto is_live = [&] { return talk.state() == collab::ConversationState::Live; };
   const auto joined = work(*connection, is_live, show, kJoinPatience);
   status.clear();
+  if (is_away != nullptr)
+    *is_away = !joined && talk.state() == collab::ConversationState::Away && !connection->is_distrusted() &&
+               !interrupted();
   if (!joined) return tl::unexpected(joined.error());
   return connection;
 }
 
-/// The design as it is kept here, with what was done to it without the server; nothing: it is not kept.
-std::optional<files::LoadedDesign> kept_design(const std::string& text, const base::Error& why) {
-  const auto address = collab::address_to_join(text);
+/// The design as it is kept here, with what was done to it without the server, which is away for a reason.
+base::Result<files::LoadedDesign> kept_design(const collab::DesignAddress& address, const base::Error& why) {
   const auto folder = collab::KeptDesign::usual_folder();
-  if (!address || !folder || interrupted()) return std::nullopt;
-  const auto kept = collab::KeptDesign::find(*folder, *address);
-  if (!kept || !*kept) return std::nullopt;
-  const auto copy = (*kept)->read();
-  if (!copy || !*copy) return std::nullopt;
+  if (!folder) return tl::unexpected(why);
+  const auto copy = collab::KeptDesign::read(collab::KeptDesign::place_of(*folder, address));
+  if (!copy) return base::fail(why.message + " " + copy.error().message);
+  if (!*copy) return tl::unexpected(why);
   collab::Replica replica;
   replica.resume(**copy);
   tell(fmt::format("{} Read instead: the copy that is kept here.", why.message));
@@ -60,6 +62,18 @@ std::optional<files::LoadedDesign> kept_design(const std::string& text, const ba
   design.world = replica.world();
   design.format = "kept for offline work";
   return design;
+}
+
+/// Connects without a copy.
+base::Result<std::unique_ptr<collab::Connection>> join_as_it_is(const collab::DesignAddress& address,
+                                                                StatusLine& status, bool only_reads,
+                                                                bool* is_away = nullptr) {
+  auto identity = collab::new_identity();
+  if (!identity) return tl::unexpected(identity.error());
+  identity->only_reads = only_reads;
+  auto connection =
+      collab::Connection::create(address, std::move(*identity), collab::FolderContents::of_user());
+  return connection ? wait_until_live(std::move(*connection), status, is_away) : std::move(connection);
 }
 
 }  // namespace
@@ -76,34 +90,32 @@ base::Result<std::unique_ptr<collab::Connection>> join_design(const std::string&
                                                               bool only_reads) {
   const auto address = collab::address_to_join(text);
   if (!address) return tl::unexpected(address.error());
-  auto identity = collab::new_identity();
-  if (!identity) return tl::unexpected(identity.error());
-  identity->only_reads = only_reads;
-  auto connection =
-      collab::Connection::create(*address, std::move(*identity), collab::FolderContents::of_user());
-  return connection ? wait_until_live(std::move(*connection), status) : std::move(connection);
+  return join_as_it_is(*address, status, only_reads);
 }
 
 base::Result<std::unique_ptr<collab::Connection>> join_design(const collab::DesignAddress& address,
                                                               StatusLine& status,
-                                                              const collab::KeptDesign& kept) {
-  const auto copy = kept.read();
-  if (!copy) return tl::unexpected(copy.error());
+                                                              const collab::KeptDesign& kept,
+                                                              const collab::KeptCopy& copy) {
   auto identity = collab::new_identity();
   if (!identity) return tl::unexpected(identity.error());
-  if (*copy) identity->key = (*copy)->key;
+  identity->key = copy.key;
   auto connection =
       collab::Connection::create(address, std::move(*identity), collab::FolderContents::of_user());
-  if (connection && *copy) (*connection)->talk().resume(**copy);
-  return connection ? wait_until_live(std::move(*connection), status) : std::move(connection);
+  if (!connection) return connection;
+  (*connection)->talk().ask_for_choices();
+  if (const auto resumed = kept.resume((*connection)->talk(), copy); !resumed)
+    return tl::unexpected(resumed.error());
+  return wait_until_live(std::move(*connection), status);
 }
 
 base::Result<files::LoadedDesign> fetch_design(const std::string& text, StatusLine& status) {
-  auto connection = join_design(text, status, true);
-  if (!connection) {
-    auto kept = kept_design(text, connection.error());
-    return kept ? base::Result<files::LoadedDesign>(std::move(*kept)) : tl::unexpected(connection.error());
-  }
+  const auto address = collab::address_to_join(text);
+  if (!address) return tl::unexpected(address.error());
+  bool is_away = false;
+  auto connection = join_as_it_is(*address, status, true, &is_away);
+  if (!connection && is_away) return kept_design(*address, connection.error());
+  if (!connection) return tl::unexpected(connection.error());
   files::LoadedDesign design;
   design.world = (*connection)->talk().replica().world();
   design.format = "ICOME server";

@@ -29,11 +29,12 @@ std::string shown_name(const std::filesystem::path& design);
 base::Result<std::unique_ptr<collab::Connection>> join_design(const std::string& address, StatusLine& status,
                                                               bool only_reads = false);
 
-/// Connects to a design that is kept on this machine, goes on with its copy where there is one, and waits
-/// until it is here.
+/// Connects to a design that is kept on this machine, goes on with its copy, and waits until it is here.
+/// Where there are conflicts nothing is sent until they are resolved.
 base::Result<std::unique_ptr<collab::Connection>> join_design(const collab::DesignAddress& address,
                                                               StatusLine& status,
-                                                              const collab::KeptDesign& kept);
+                                                              const collab::KeptDesign& kept,
+                                                              const collab::KeptCopy& copy);
 
 /// Reads the design of an address; where the server is not to be reached, the copy that is kept here, and
 /// says so.

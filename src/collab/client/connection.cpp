@@ -10,6 +10,7 @@ namespace icome::collab {
 namespace {
 
 constexpr std::chrono::milliseconds kClientTick{50};
+constexpr int kMostSentAway = 5;  // times in a row, for the same reason
 /// A server that stops, or has not taken a design over yet, says so: it is waited for at least so long.
 constexpr std::chrono::milliseconds kTakeOver{12'000};
 
@@ -53,7 +54,12 @@ void Connection::take(std::string& frame) {
 }
 
 void Connection::take(NetworkThread::Closed& closed) {
+  is_distrusted_ = closed.is_distrusted;
   last_why_ = talk_.why_ended().empty() ? closed.why : talk_.why_ended();
+  // The same end again, with nothing more on the disk: it would go on like that for ever.
+  const bool is_the_same = !talk_.why_ended().empty() && talk_.replica().durable() == sent_away_at_;
+  sent_away_ = is_the_same ? sent_away_ + 1 : 0;
+  sent_away_at_ = talk_.replica().durable();
   if (closed.was_open) talk_.closed(closed.why, milliseconds_now());
   is_open_ = false;
 }
@@ -86,6 +92,7 @@ base::Result<bool> Connection::work_until(const std::function<bool()>& done,
     if (done()) return true;
     if (talk_.state() == ConversationState::Ended) return error(talk_.why_ended());
     if (stops()) return false;
+    if (sent_away_ >= kMostSentAway && talk_.how_ended() == Parting::Other) return error(last_why_);
     const bool is_taken_over = talk_.how_ended() == Parting::ServerStops;
     const auto longest = is_taken_over ? std::max(patience, kTakeOver) : patience;
     if (talk_.state() == ConversationState::Away && now - last_live_ > longest.count())

@@ -31,6 +31,8 @@ class Connection {
   /// when it was not reached for as long as `patience`, or longer where another server is to take over.
   base::Result<bool> work_until(const std::function<bool()>& done, const std::function<bool()>& stops,
                                 std::chrono::milliseconds patience);
+  /// The server's certificate was not that of the link, the last time.
+  bool is_distrusted() const { return is_distrusted_; }
   /// The reason why there was no connection, the last time.
   const std::string& last_why() const { return last_why_; }
 
@@ -45,8 +47,11 @@ class Connection {
   Conversation talk_;
   bool is_open_ = false;
   bool is_closing_ = false;
+  bool is_distrusted_ = false;
   std::int64_t last_live_ = 0;  // ms
   std::string last_why_;
+  int sent_away_ = 0;  // times in a row that the server has ended it, and nothing came of it
+  std::uint64_t sent_away_at_ = ~std::uint64_t{0};  // Replica::durable() then
   std::unique_ptr<NetworkThread> network_;
 };
 

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t kFrameBytes = 1U << 18U;  // at most so many are begun to be put into one frame
 constexpr std::size_t kPartBytes = 1U << 18U;   // of an edit that is sent in parts
-constexpr std::size_t kMuch = 1'000;            // bytes of a frame that may hold several edits
 constexpr const char* kRestored =
     "The design was restored from an earlier state: what came after it is gone.";
 constexpr std::int64_t kUsualLease = 8'000;         // ms
@@ -72,19 +71,27 @@ void Conversation::closed(const std::string& why, std::int64_t now) {
 
 void Conversation::received(std::string_view frame, std::int64_t now) {
   now_ = heard_at_ = now;
-  // Own edits are taken back and redone once for all that a frame brings.
-  const bool brings_much = frame.size() > kMuch && replica_.pending() > 0;
-  if (brings_much)
-    if (const auto done = replica_.put_aside(); !done) begin_anew(done.error());
-  while (!frame.empty() && !wants_to_close_) {
+  std::vector<ServerMessage> messages;
+  std::optional<base::Error> damage;
+  while (!frame.empty() && !damage) {
     const auto bytes = next_in_frame(frame);
     auto message = bytes ? server_message(*bytes) : tl::unexpected(bytes.error());
-    if (!message) {
-      begin_anew(message.error());
-    } else {
-      take_in(std::move(*message));
-    }
+    if (message)
+      messages.push_back(std::move(*message));
+    else
+      damage = message.error();
   }
+  // Own edits are taken back and redone once for all that a frame brings of others.
+  const auto is_of_others = [this](const ServerMessage& it) {
+    const auto* const ordered = std::get_if<Ordered>(&it);
+    return ordered != nullptr && ordered->author != replica_.author();
+  };
+  const bool brings_much = replica_.pending() > 0 && std::ranges::count_if(messages, is_of_others) > 1;
+  if (brings_much)
+    if (const auto done = replica_.put_aside(); !done) begin_anew(done.error());
+  for (ServerMessage& message : messages)
+    if (!wants_to_close_) take_in(std::move(message));
+  if (damage && !wants_to_close_) begin_anew(*damage);
   if (brings_much) replica_.refresh();
 }
 

@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "collab/content/outline.h"
 #include "collab/order/world_bytes.h"
 #include "collab/protocol/message_bytes.h"
 #include "world/edit/edit_bytes.h"
@@ -12,8 +13,9 @@ namespace icome::collab {
 namespace {
 
 // As bytes: frames with a text of what is no edit, with the world, and then two for each edit, its name and a
-// Submit.
+// Submit; last the SHA-256 of all before.
 constexpr const char* kFirstWord = "icome-kept-1";
+constexpr std::size_t kSumBytes = 8 + kContentHashBytes;  // a frame
 
 tl::unexpected<base::Error> unreadable() {
   return base::fail("The copy that was kept for offline work is damaged.");
@@ -23,9 +25,9 @@ tl::unexpected<base::Error> unreadable() {
 
 base::Result<std::string> to_bytes(const KeptCopy& copy) {
   std::string bytes;
-  add_to_frame(bytes, fmt::format("{}\n{}\n{}\n{} {} {} {} {} {} {}\n", kFirstWord, copy.link, copy.key,
+  add_to_frame(bytes, fmt::format("{}\n{}\n{}\n{} {} {} {} {} {} {} {}\n", kFirstWord, copy.link, copy.key,
                                   copy.at, copy.history, copy.sequence, copy.author, copy.last_number,
-                                  int(copy.role), copy.edits.size()));
+                                  copy.lives, int(copy.role), copy.edits.size()));
   const auto world = world_to_bytes(copy.world);
   if (!world) return world;
   add_to_frame(bytes, *world);
@@ -35,10 +37,15 @@ base::Result<std::string> to_bytes(const KeptCopy& copy) {
     add_to_frame(bytes, it.name);
     add_to_frame(bytes, to_bytes(ClientMessage(Submit{it.number, it.base, it.fences, std::move(*edit), 0})));
   }
+  add_to_frame(bytes, hash_of_content(bytes));
   return bytes;
 }
 
 base::Result<KeptCopy> kept_copy_from_bytes(std::string_view bytes, const world::GeometryFactory& factory) {
+  if (bytes.size() < kSumBytes) return unreadable();
+  std::string_view sum = bytes.substr(bytes.size() - kSumBytes);
+  bytes.remove_suffix(kSumBytes);
+  if (next_in_frame(sum).value_or("") != hash_of_content(bytes)) return unreadable();
   const auto text = next_in_frame(bytes);
   if (!text) return unreadable();
   std::istringstream head{std::string(*text)};
@@ -49,7 +56,8 @@ base::Result<KeptCopy> kept_copy_from_bytes(std::string_view bytes, const world:
   std::getline(head, word);
   std::getline(head, copy.link);
   std::getline(head, copy.key);
-  head >> copy.at >> copy.history >> copy.sequence >> copy.author >> copy.last_number >> role >> edits;
+  head >> copy.at >> copy.history >> copy.sequence >> copy.author >> copy.last_number >> copy.lives >> role >>
+      edits;
   if (!head || word != kFirstWord || role > unsigned(Role::Own)) return unreadable();
   copy.role = Role(role);
   const auto world_bytes = next_in_frame(bytes);

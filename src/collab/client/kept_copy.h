@@ -31,6 +31,7 @@ struct KeptCopy {
   std::uint64_t sequence = 0;  // of the world's last edit
   std::uint32_t author = 0;
   std::uint64_t last_number = 0;  // of own edits
+  std::uint64_t lives = 0;        // programs that went on from a copy before this one
   Role role = Role::View;
   world::World world = {};
   std::vector<KeptEdit> edits = {};

@@ -19,13 +19,6 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostCopyBytes = std::uint64_t{4} << 30;
 constexpr std::size_t kNameBytes = 16;  // of the hash, in a folder's name
 
-/// The design's own folder: two links to it have the same.
-fs::path place_of(const fs::path& folder, const DesignAddress& address) {
-  const std::string what =
-      fmt::format("{}:{}/{}#{}", address.host, address.port, address.design, address.fingerprint);
-  return folder / hex_text(hash_of_content(what).substr(0, kNameBytes));
-}
-
 fs::path copy_in(const fs::path& place) { return place / "copy"; }
 
 }  // namespace
@@ -34,6 +27,12 @@ base::Result<fs::path> KeptDesign::usual_folder() {
   const auto store = StoreFolder::default_path();
   if (!store) return store;
   return store->parent_path() / "kept";
+}
+
+fs::path KeptDesign::place_of(const fs::path& folder, const DesignAddress& address) {
+  const std::string what =
+      fmt::format("{}:{}/{}#{}", address.host, address.port, address.design, address.fingerprint);
+  return folder / hex_text(hash_of_content(what).substr(0, kNameBytes));
 }
 
 base::Result<KeptDesign> KeptDesign::make(const fs::path& folder, const DesignAddress& address) {
@@ -87,6 +86,19 @@ base::Result<void> KeptDesign::write(const KeptCopy& copy) const {
   if (!file) return tl::unexpected(file.error());
   file->write(*bytes);
   return file->finish();
+}
+
+base::Result<void> KeptDesign::resume(Conversation& talk, const KeptCopy& copy) const {
+  talk.resume(copy);
+  auto next = talk.keep();
+  if (!next) return base::fail("The copy that is kept here cannot be gone on with.");
+  next->at = copy.at;
+  return write(*next);
+}
+
+void KeptDesign::put_aside() const {
+  std::error_code ignored;
+  fs::rename(copy_in(place_), place_ / "copy.former", ignored);
 }
 
 void KeptDesign::remove() const {

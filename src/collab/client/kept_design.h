@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "collab/client/conversation.h"
 #include "collab/client/kept_copy.h"
 #include "collab/protocol/address.h"
 #include "io/open_file.h"
@@ -22,6 +23,8 @@ class KeptDesign {
   /// Nothing: the design is not kept here. An empty optional in it: it is, and another program has it.
   static std::optional<std::optional<KeptDesign>> find(const std::filesystem::path& folder,
                                                        const DesignAddress& address);
+  /// The design's own folder, whether it is kept or not: two links to one design have the same.
+  static std::filesystem::path place_of(const std::filesystem::path& folder, const DesignAddress& address);
   /// The folders of all that are kept.
   static std::vector<std::filesystem::path> all(const std::filesystem::path& folder);
 
@@ -31,6 +34,12 @@ class KeptDesign {
   static base::Result<std::optional<KeptCopy>> read(const std::filesystem::path& place);
   /// Replaces the copy, whole or not at all.
   base::Result<void> write(const KeptCopy& copy) const;
+  /// Has a conversation go on from the copy, with the copy's key, and keeps what follows from that in its
+  /// place, so that no other program goes on from the same copy. Before the first connection.
+  base::Result<void> resume(Conversation& talk, const KeptCopy& copy) const;
+  /// Leaves the copy beside those that are written from now on, under another name: it is damaged, or of
+  /// another history of the design.
+  void put_aside() const;
   /// Keeps it no longer.
   void remove() const;
 

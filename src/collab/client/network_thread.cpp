@@ -131,7 +131,8 @@ void NetworkThread::closed(LinkId link, const std::string& why) {
   link_.reset();
   {
     const std::lock_guard lock(mutex_);
-    in_.push_back(Closed{why, is_open_});
+    in_.push_back(
+        Closed{why, is_open_, loop_->distrusted() != std::exchange(distrusted_, loop_->distrusted())});
     out_.clear();
     wants_to_close_ = false;
     ++connection_;

@@ -27,6 +27,7 @@ class NetworkThread final : private LinkEvents {
   struct Closed {
     std::string why = {};
     bool was_open = false;
+    bool is_distrusted = false;  // for the server's certificate
   };
   /// A thing that happened; a string is a frame that came.
   using News = std::variant<Opened, std::string, Closed>;
@@ -69,6 +70,7 @@ class NetworkThread final : private LinkEvents {
   bool is_open_ = false;
   bool is_sending_ = false;
   bool is_closing_ = false;
+  std::uint64_t distrusted_ = 0;  // LinkLoop::distrusted(), at the last end
 
   // Shared by both threads.
   std::mutex mutex_;

@@ -36,10 +36,6 @@ bool replaces(const world::Edit& older, const world::Edit& newer) {
 /// More than a program makes between two times at which its copy is kept.
 constexpr std::uint64_t kNumbersOfALife = 1'000'000;
 
-bool gets_in_the_way(Aspect mine, Aspect theirs) {
-  return mine == theirs || mine == Aspect::Existence || theirs == Aspect::Existence;
-}
-
 tl::unexpected<base::Error> differs(const std::string& why) {
   return base::fail("This copy of the design differs from the server's: " + why);
 }
@@ -129,7 +125,8 @@ base::Result<std::uint64_t> Replica::perform(const world::Edit& edit, const std:
   const std::uint64_t number = add_pending(edit, name, std::move(*inverse), std::move(fences));
   if (is_covered) own_.insert_or_assign(number, Own{world::EditGroup{}, 0, true});
   done_.back().numbers.push_back(number);
-  forget_oldest();
+  constexpr std::uint64_t kLookEvery = 256;  // actions: looking takes as long as there are many
+  if (number % kLookEvery == 0) forget_oldest();
   return number;
 }
 
@@ -158,12 +155,14 @@ void Replica::forget_oldest() {
 }
 
 std::optional<Submit> Replica::next_to_send() {
-  const auto next = std::ranges::find_if(pending_, [](const Pending& it) { return !it.sent; });
+  // They are sent in order.
+  const auto next = std::ranges::partition_point(pending_, &Pending::sent);
   if (next == pending_.end()) return std::nullopt;
   next->sent = next->was_sent = true;
   auto bytes = world::to_bytes(next->edit);
   // perform() takes only what can be written: what cannot would be refused by the server.
-  return Submit{next->number, next->base, next->fences, bytes ? std::move(*bytes) : std::string(), 0};
+  return Submit{next->number,    next->base, next->fences, bytes ? std::move(*bytes) : std::string(), 0,
+                next->takes_back};
 }
 
 bool Replica::has_unsent() const {
@@ -326,6 +325,7 @@ bool Replica::keep_in(KeptCopy& copy) const {
   copy.sequence = base_;
   copy.author = author_;
   copy.last_number = last_number_;
+  copy.lives = lives_;
   copy.world = world_;
   for (auto it = pending_.rbegin(); it != pending_.rend(); ++it)
     if (it->inverse) (void)world::apply(copy.world, *it->inverse);
@@ -342,6 +342,7 @@ void Replica::resume(const KeptCopy& copy) {
   if (listener_) listener_(nullptr);
   base_ = sequence_ = durable_ = copy.sequence;
   has_base_ = true;
+  lives_ = copy.lives + 1;
   set_author(copy.author, copy.last_number + kNumbersOfALife);
   for (const KeptEdit& it : copy.edits) {
     pending_.push_back({it.number, it.name, it.edit, it.fences, it.base, false, true, std::nullopt});
@@ -349,6 +350,11 @@ void Replica::resume(const KeptCopy& copy) {
     done_.push_back({it.name, {it.number}});
   }
   redo_pending();
+}
+
+std::uint64_t Replica::first_free_number() const {
+  constexpr unsigned kThingsOfALife = 24;  // bits
+  return std::max(world_.next_number(author_), lives_ << kThingsOfALife);
 }
 
 world::World Replica::world_of_server() {
@@ -404,7 +410,8 @@ base::Result<void> Replica::rewind() {
   }
   for (; !covered_.empty(); covered_.pop_back()) pending_.push_front(std::move(covered_.back()));
   sequence_ = base_;
-  for (Pending& it : pending_) it.sent = false;
+  // Where others worked meanwhile, people choose.
+  for (Pending& it : pending_) it.sent = it.takes_back = false;
   redo_pending();
   return {};
 }
@@ -420,7 +427,7 @@ std::optional<Replica::Touch> Replica::later_touch(const world::Edit& edit, std:
     const auto found = others_.find(mine.item);
     if (found == others_.end()) continue;
     for (const auto& [aspect, touch] : found->second)
-      if (touch.sequence > since && gets_in_the_way(mine.aspect, aspect)) return touch;
+      if (touch.sequence > since && get_in_the_way(mine.aspect, aspect)) return touch;
   }
   return std::nullopt;
 }
@@ -447,6 +454,7 @@ base::Result<std::uint64_t> Replica::turn(std::vector<Action>& from, std::vector
   auto inverse = change(edit);
   if (!inverse) return stays(inverse.error().message);
   const std::uint64_t number = add_pending(edit, action.name, std::move(*inverse), std::move(fences));
+  pending_.back().takes_back = true;
   from.pop_back();
   for (const std::uint64_t old : action.numbers) own_.erase(old);
   to.push_back({action.name, {number}});

@@ -91,8 +91,11 @@ class Replica {
   /// world now.
   bool keep_in(KeptCopy& copy) const;
   /// Goes on from a copy, instead of an empty replica. Own edits are each an action to undo. New ones get
-  /// numbers far above those of the copy, as the program may have given some after it was kept.
+  /// numbers far above those of the copy, as the program before may have given some after it was kept. Nobody
+  /// else may go on from the same copy: keep what this one gives in its place, before anything is done.
   void resume(const KeptCopy& copy);
+  /// The first number for new things of one's own: of no program that went on from a copy of this design.
+  std::uint64_t first_free_number() const;
 
   // ---- what was done while there was no connection
   /// The world without the own edits that the server has not ordered.
@@ -139,6 +142,7 @@ class Replica {
     bool sent = false;                   // by this connection
     bool was_sent = false;               // by any: the server may have it as it is
     std::optional<world::Edit> inverse;  // nothing: it does not apply now
+    bool takes_back = false;             // it undoes or redoes
   };
   struct Tentative {
     std::uint64_t first = 0, last = 0;
@@ -187,6 +191,7 @@ class Replica {
   std::function<void(const world::Edit*)> listener_;
   std::uint32_t author_ = 0;
   std::uint64_t last_number_ = 0;
+  std::uint64_t lives_ = 0;  // KeptCopy::lives
   bool has_base_ = false;
   std::uint64_t base_ = 0;      // sequence of the world beneath tentative_
   std::uint64_t sequence_ = 0;  // of the world beneath pending_

@@ -38,9 +38,9 @@ ContentCachePointer FolderContents::of_user() {
   const char* const cache = std::getenv("XDG_CACHE_HOME");
   const char* const home = std::getenv("HOME");
   fs::path folder;
-  if (cache != nullptr && *cache != '\0') {
+  if (cache != nullptr && fs::path(cache).is_absolute()) {  // the specification has others ignored
     folder = cache;
-  } else if (home != nullptr && *home != '\0') {
+  } else if (home != nullptr && fs::path(home).is_absolute()) {
     folder = fs::path(home) / ".cache";
   } else {
     return nullptr;

@@ -97,6 +97,8 @@ class LinkLoop {
   /// what is slow or long is cut off.
   base::Result<Endpoint> listen_http(const Endpoint& endpoint,
                                      std::function<HttpAnswer(std::string_view path)> answer);
+  /// Connections of ours so far that ended because of the other side's certificate.
+  std::uint64_t distrusted() const;
   /// Begins to connect: opened() or closed() follows, never within this call.
   LinkId connect(const ConnectSettings& settings);
 

@@ -46,6 +46,12 @@ enum class Aspect : std::uint8_t {
   Content,  // of a shape, a material or a texture, or what is in a scene
 };
 
+inline constexpr std::size_t kAspects = std::size_t(Aspect::Content) + 1;
+/// Do changes of these two sides of one thing get in each other's way?
+inline bool get_in_the_way(Aspect one, Aspect other) {
+  return one == other || one == Aspect::Existence || other == Aspect::Existence;
+}
+
 /// A side of a thing that an edit changes.
 struct Touched {
   Item item;
@@ -76,5 +82,12 @@ template <>
 struct std::hash<icome::collab::Item> {
   std::size_t operator()(const icome::collab::Item& item) const noexcept {
     return std::size_t((item.id ^ (item.id >> 29) ^ std::uint64_t(item.kind) << 59) * 0x9e3779b97f4a7c15ULL);
+  }
+};
+
+template <>
+struct std::hash<icome::collab::Touched> {
+  std::size_t operator()(const icome::collab::Touched& it) const noexcept {
+    return std::hash<icome::collab::Item>()(it.item) + 0x9e3779b97f4a7c15ULL * std::size_t(it.aspect);
   }
 };

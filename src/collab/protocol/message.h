@@ -58,6 +58,7 @@ struct Submit {
   std::vector<std::uint64_t> fences = {};  // of the holds under which it was made
   std::string edit = {};                   // world::to_bytes, or the next part of them
   std::uint64_t total = 0;                 // bytes of all parts; 0: it is whole
+  bool takes_back = false;                 // it undoes or redoes: not over what others did since `base`
 };
 /// Asks for a thing (SELECT_COLOBJ).
 struct Select {

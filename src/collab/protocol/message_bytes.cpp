@@ -66,7 +66,8 @@ class MessageWriter {
   WrittenContent operator()(const Submit& it) {
     const auto fences = builder_.CreateVector(it.fences);
     const auto edit = bytes(it.edit);
-    return as_content(flat::CreateSubmit(builder_, it.number, it.base, fences, edit, it.total));
+    return as_content(
+        flat::CreateSubmit(builder_, it.number, it.base, fences, edit, it.total, it.takes_back));
   }
   WrittenContent operator()(const Select& it) {
     const flat::Item item = flat_item(it.item);
@@ -184,8 +185,8 @@ class MessageReader {
   ClientMessage operator()(const flat::Fetch& it) { return Fetch{bytes(it.hash()), it.offset(), it.bytes()}; }
   ClientMessage operator()(const flat::Loaded& it) { return Loaded{it.snapshot()}; }
   ClientMessage operator()(const flat::Submit& it) {
-    return Submit{it.number(), it.base(), reader_.items<std::uint64_t>(it.fences()), bytes(it.edit()),
-                  it.total()};
+    return Submit{it.number(),      it.base(),  reader_.items<std::uint64_t>(it.fences()),
+                  bytes(it.edit()), it.total(), it.takes_back()};
   }
   ClientMessage operator()(const flat::Select& it) { return Select{item(it.item()), it.waits()}; }
   ClientMessage operator()(const flat::Deselect& it) { return Deselect{item(it.item())}; }

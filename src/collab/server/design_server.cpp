@@ -123,10 +123,12 @@ base::Result<std::unique_ptr<DesignServer>> DesignServer::create(const ServeSett
       new DesignServer(*files, std::move(*lock), *signer, complete.hub, store->shown()));
   if (const auto started = server->start(complete, std::move(*log)); !started)
     return tl::unexpected(started.error());
-  if (const auto noted =
-          store->write_address({server->endpoint_.host, server->endpoint_.port, server->fingerprint_});
-      !noted)
-    return tl::unexpected(noted.error());
+  const ServedAddress address{server->endpoint_.host, server->endpoint_.port, server->fingerprint_};
+  if (const auto noted = store->write_address(address); !noted) {
+    // A full disk keeps nobody from reading, as long as links still lead here.
+    const auto known = store->address();
+    if (!known || *known != address) return tl::unexpected(noted.error());
+  }
   return server;
 }
 
@@ -216,7 +218,7 @@ void DesignServer::go_on(LinkId link) {
   const auto found = links_.find(link);
   if (found == links_.end()) return;
   found->second.is_under_way = false;
-  if (std::exchange(found->second.goes_on, false)) flush(link);
+  if (std::exchange(found->second.goes_on, false) || hub_.parting(link)) flush(link);
 }
 
 void DesignServer::closed(LinkId link, const std::string&) {
@@ -368,7 +370,9 @@ void DesignServer::tick() {
 // ---- what administrators see
 
 HttpAnswer DesignServer::answer(std::string_view path) const {
-  if (path == "/health") return {200, "application/json", "{\"status\":\"ok\"}\n"};
+  if (path == "/health" && hub_.trouble().empty()) return {200, "application/json", "{\"status\":\"ok\"}\n"};
+  if (path == "/health")
+    return {503, "application/json", fmt::format("{{\"status\":{}}}\n", quoted_json(hub_.trouble()))};
   if (path != "/metrics") return {404, "text/plain; charset=utf-8", "There are /health and /metrics.\n"};
   const HubCounters& it = hub_.counters();
   std::string text;

@@ -379,11 +379,14 @@ void Hub::appended(const std::vector<OpenDesignPointer>& designs, const std::vec
                    const std::vector<std::optional<AppendError>>& errors) {
   ++appends_;
   ++counters_.commits;
+  trouble_.clear();
   for (std::size_t i = 0; i < designs.size(); ++i) {
     const OpenDesignPointer& design = designs[i];
     if (i < errors.size() && errors[i]) {
       ++counters_.failed_commits;
       const bool is_taken = errors[i]->problem == AppendProblem::Fenced;
+      if (!is_taken) trouble_ = errors[i]->message;
+      if (!is_taken && audit_) audit_({at_, "commit failed", {}, design->name, {}, {}, 0, trouble_});
       give_up(design,
               is_taken ? "Another server has taken this design over."
                        : "The server could not save the last edits: " + errors[i]->message,

@@ -91,6 +91,8 @@ class Hub {
   bool appends() const { return appended_last_; }
 
   const HubCounters& counters() const { return counters_; }
+  /// The reason why the last commit failed; empty where it did not.
+  const std::string& trouble() const { return trouble_; }
   const Room* room(const std::string& design) const;
 
  private:
@@ -179,6 +181,7 @@ class Hub {
   std::int64_t now_ = 0, at_ = 0;                // ms, of the last call that said so
   std::int64_t asked_for_revoked_ = -1'000'000;  // ms
   HubCounters counters_;
+  std::string trouble_;
 };
 
 }  // namespace icome::collab

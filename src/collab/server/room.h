@@ -158,7 +158,7 @@ class Room {
     SharedBytes presence;
     std::uint64_t presence_version = 0;
   };
-  struct Change {  // who changed a thing last
+  struct Change {
     std::uint64_t sequence = 0;
     std::uint32_t author = 0;
   };
@@ -187,6 +187,8 @@ class Room {
   std::optional<Refusal> refusal(const Member& member, const Submit& message, const world::Edit& edit) const;
   std::optional<Refusal> wrong_ids(std::uint32_t author, const world::Edit& edit) const;
   std::optional<Refusal> fenced(const Member& member, const Submit& message, const world::Edit& edit) const;
+  std::uint32_t author_of_last(const Touched& change) const;
+  std::optional<Refusal> overtaken(std::uint32_t author, const Touched& mine, std::uint64_t base) const;
   void order(Member& member, const Submit& message, world::Edit edit, std::int64_t at);
   void append_to_tail(std::uint32_t author, std::uint64_t number, std::string bytes, world::Edit edit);
   void floor_follows(const world::Edit& edit);
@@ -221,7 +223,7 @@ class Room {
   SharedSnapshot snapshot_;
   std::map<LinkId, Member> members_;
   std::map<std::uint32_t, Author> authors_;
-  std::unordered_map<Item, Change> changed_;
+  std::unordered_map<Touched, Change> changed_;  // who changed a side of a thing last
   std::vector<LogEntry> entries_;
   std::uint64_t presence_version_ = 0;
   std::int64_t now_ = 0;         // ms, of the last message

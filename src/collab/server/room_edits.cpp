@@ -145,37 +145,56 @@ std::optional<Room::Refusal> Room::refusal(const Member& member, const Submit& m
   if (const auto obstacle = floor_.obstacle(world_, author, needs_of(edit))) {
     if (obstacle->holder == 0)
       return Refusal{fmt::format("{} is not there any more.", called(world_, obstacle->item)),
-                     changed_.contains(obstacle->item) ? changed_.at(obstacle->item).author : 0};
+                     author_of_last({obstacle->item, Aspect::Existence})};
     return Refusal{fmt::format("{} holds {}.", person_name(obstacle->holder), called(world_, obstacle->item)),
                    obstacle->holder};
   }
   return fenced(member, message, edit);
 }
 
-/// Was the edit made under a hold that has ended since? After this server began anew nobody has a hold: then
-/// it counts whether somebody else has changed the things since the client looked.
+/// Does an undo or a redo come behind what others did to the same, or was the edit made under a hold that has
+/// ended since? After this server began anew nobody has a hold: then it counts whether somebody else has
+/// changed the things since the client looked.
 std::optional<Room::Refusal> Room::fenced(const Member& member, const Submit& message,
                                           const world::Edit& edit) const {
+  const std::uint32_t author = member.who.author;
+  if (message.takes_back)
+    for (const Touched& it : touched_by(edit))
+      if (auto refusal = overtaken(author, it, message.base)) return refusal;
   bool is_of_earlier_life = false;
   for (const std::uint64_t fence : message.fences) {
     if (fence <= epoch_) {
       is_of_earlier_life = true;
-    } else if (!floor_.is_held(member.who.author, fence)) {
+    } else if (!floor_.is_held(author, fence)) {
       return Refusal{"The hold under which this was done has ended."};
     }
   }
   if (!is_of_earlier_life) return std::nullopt;
   const std::uint64_t known_from = tail_.empty() ? sequence_ : tail_.front().sequence - 1;
   if (message.base < known_from) return Refusal{"The design has changed too much since this was done."};
-  for (const Touched& it : touched_by(edit)) {
-    const auto found = changed_.find(it.item);
-    if (found != changed_.end() && found->second.sequence > message.base &&
-        found->second.author != member.who.author)
-      return Refusal{fmt::format("{} has changed {} meanwhile.", person_name(found->second.author),
-                                 called(world_, it.item)),
-                     found->second.author};
+  for (const Touched& it : touched_by(edit))
+    if (auto refusal = overtaken(author, {it.item, Aspect::Existence}, message.base)) return refusal;
+  return std::nullopt;
+}
+
+/// Has somebody else changed this side of a thing, or one that gets in its way, since the client looked?
+std::optional<Room::Refusal> Room::overtaken(std::uint32_t author, const Touched& mine,
+                                             std::uint64_t base) const {
+  for (std::size_t i = 0; i < kAspects; ++i) {
+    if (!get_in_the_way(mine.aspect, Aspect(i))) continue;
+    const auto found = changed_.find({mine.item, Aspect(i)});
+    if (found == changed_.end() || found->second.sequence <= base || found->second.author == author) continue;
+    return Refusal{fmt::format("{} has changed {} meanwhile.", person_name(found->second.author),
+                               called(world_, mine.item)),
+                   found->second.author};
   }
   return std::nullopt;
+}
+
+/// 0: nobody is known.
+std::uint32_t Room::author_of_last(const Touched& change) const {
+  const auto found = changed_.find(change);
+  return found == changed_.end() ? 0 : found->second.author;
 }
 
 void Room::order(Member& member, const Submit& message, world::Edit edit, std::int64_t at) {
@@ -189,7 +208,7 @@ void Room::order(Member& member, const Submit& message, world::Edit edit, std::i
 
 void Room::append_to_tail(std::uint32_t author, std::uint64_t number, std::string bytes, world::Edit edit) {
   ++sequence_;
-  for (const Touched& it : touched_by(edit)) changed_[it.item] = {sequence_, author};
+  for (const Touched& it : touched_by(edit)) changed_[it] = {sequence_, author};
   std::deque<std::uint64_t>& accepted = authors_[author].accepted;
   accepted.push_back(number);
   if (accepted.size() > kMostAccepted) accepted.pop_front();

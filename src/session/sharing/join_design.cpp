@@ -31,8 +31,8 @@ std::optional<collab::KeptCopy> kept_copy(const collab::DesignAddress& address,
   joined.kept = std::make_shared<const collab::KeptDesign>(std::move(**kept));
   auto copy = joined.kept->read();
   if (copy) return std::move(*copy);
-  joined.kept.reset();
-  joined.damage = copy.error().message;
+  joined.kept->put_aside();
+  joined.damage = copy.error().message + " It stays beside the new one, as copy.former.";
   return std::nullopt;
 }
 
@@ -55,12 +55,16 @@ base::Result<files::LoadedDesign> join_design(const collab::DesignAddress& addre
   if (!connection) return tl::unexpected(connection.error());
   collab::Conversation& talk = (*connection)->talk();
   talk.ask_for_choices();
-  if (copy) talk.resume(*copy);
+  if (copy)
+    if (const auto resumed = joined.kept->resume(talk, *copy); !resumed)
+      return tl::unexpected(resumed.error());
   const auto is_live = [&] { return talk.state() == collab::ConversationState::Live; };
   const auto stops = [&] { return options.progress && !options.progress(talk.progress()); };
   const auto done = (*connection)->work_until(is_live, stops, kJoinPatience);
   if (done && !*done) return base::fail("interrupted");
   if (!done && !copy) return tl::unexpected(done.error());
+  const auto now = talk.keep();
+  if (copy && now && now->history != copy->history) joined.kept->put_aside();
   files::LoadedDesign design;
   design.world = talk.replica().world();
   if (!done) {

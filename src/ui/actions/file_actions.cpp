@@ -351,6 +351,7 @@ Note FileActions::hear_of_cancelled(const SessionEvent& event) {
 }
 
 Note FileActions::hear(const SessionEvent& event) {
+  renew_keep();
   switch (event.kind) {
     case SessionEvent::Kind::Opened:
     case SessionEvent::Kind::Saved:

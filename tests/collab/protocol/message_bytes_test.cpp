@@ -22,7 +22,7 @@ std::vector<ClientMessage> client_messages() {
   return {hello,
           Fetch{std::string("\0hash", 5), 5, 6},
           Loaded{4},
-          Submit{8, 7, {1, 2, 3}, std::string("\0edit", 5), 99},
+          Submit{8, 7, {1, 2, 3}, std::string("\0edit", 5), 99, true},
           Select{kLeg, true},
           Deselect{kLeg},
           TakeAway{kLeg},

@@ -4,6 +4,7 @@
 #include "collab/client/connection.h"
 #include "collab/client/integration.h"
 #include "collab/client/joining.h"
+#include "collab/link/link_loop.h"
 #include "collab/server/served_design.h"
 #include "world/sample_world.h"
 
@@ -50,6 +51,42 @@ TEST_F(DesignServerTest, ShowsToAllWhatOneDoes) {
   works(*bob, [&] { return bob->talk().replica().world().find(box) != nullptr; });
   EXPECT_EQ(hash(ann->talk().replica().world()), hash(bob->talk().replica().world()));
   EXPECT_EQ(bob->talk().name_of(ann->talk().replica().author()), "Ann");
+}
+
+/// Says one thing to a server and waits until that ends the connection.
+class RefusedClient final : private LinkEvents {
+ public:
+  std::string end_after(const DesignAddress& address, const std::string& bytes) {
+    loop_ = LinkLoop::create(*this).value();
+    frame_ = std::make_shared<const std::string>(bytes);
+    ConnectSettings settings;
+    settings.endpoint = {address.host, address.port};
+    settings.fingerprint = address.fingerprint;
+    loop_->connect(settings);
+    loop_->run();
+    return why_;
+  }
+
+ private:
+  void opened(LinkId link, const Peer&) override { loop_->send(link, frame_); }
+  void received(LinkId, std::string_view) override {}
+  void sent(LinkId) override {}
+  void closed(LinkId, const std::string& why) override {
+    why_ = why;
+    loop_->stop();
+  }
+
+  std::unique_ptr<LinkLoop> loop_;
+  SharedBytes frame_;
+  std::string why_;
+};
+
+TEST_F(DesignServerTest, EndsTheConnectionOfWhomItRefusesAtOnce) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::string why = RefusedClient().end_after(address(Role::Edit), "this is no hello");
+  EXPECT_NE(why.find("has ended the connection"), std::string::npos) << why;
+  // Its own limits of time are ten seconds and more.
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(8));
 }
 
 TEST_F(DesignServerTest, ClientsGoOnByThemselvesWhenItIsBack) {

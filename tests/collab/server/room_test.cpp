@@ -94,6 +94,25 @@ TEST_F(RoomTest, TellsWhoMadeAnEditAtOnceThatItIsDurableAndOthersSoon) {
   EXPECT_EQ(heard_of<Durable>(2).size(), 0U);
 }
 
+TEST_F(RoomTest, LetsNobodyUndoOverWhatAnotherDidInTheSameMoment) {
+  join(1, 1, Role::Edit, "Ann");
+  join(2, 2, Role::Edit, "Bob");
+  heard(1);
+  const std::uint64_t base = room_->sequence();
+  submit(2, 1, world::PlaceObject{table_, world::at(2, 0, 0)});
+  const auto undo = [&](std::uint64_t number, const world::Edit& edit) {
+    say(1, Submit{number, base, {}, world::to_bytes(edit).value(), 0, true});
+  };
+  heard(1);
+  undo(1, world::PlaceObject{table_, world::at(0, 0, 0)});
+  const auto told = heard_of<Rejected>(1);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].why, "Bob has changed \"table\" meanwhile.");
+  EXPECT_EQ(told[0].whose, 2U);
+  undo(2, world::RenameObject{table_, "desk"});
+  EXPECT_EQ(heard_of<Accepted>(1).size(), 1U) << "its name is another side of it";
+}
+
 TEST_F(RoomTest, KnowsWhoWaitsForAnAnswerAboutTheFloor) {
   join(1, 1, Role::Edit, "Ann");
   EXPECT_FALSE(room_->has_answer(1));

@@ -66,6 +66,7 @@ void SimulatedWork::make_client(Client& client, bool same_key) {
   if (same_key && !client.kept.empty() && random_.index(2) == 0) {
     const KeptCopy copy = kept_copy_from_bytes(client.kept, factory_).value();
     client.talk->resume(copy);
+    client.kept = to_bytes(*client.talk->keep()).value();
     ++resumed_;
     resumed_edits_ += copy.edits.size();
   }
@@ -157,8 +158,8 @@ void SimulatedWork::act(Client& client) {
   if (random_.index(20) == 0)
     if (const auto copy = talk.keep()) client.kept = to_bytes(*copy).value();
   if (!client.edits)
-    client.edits = std::make_unique<world::RandomEdits>(
-        random_.bits(), replica.author(), replica.world().next_number(replica.author()) + 10'000);
+    client.edits = std::make_unique<world::RandomEdits>(random_.bits(), replica.author(),
+                                                        replica.first_free_number() + 10'000);
   const auto& holds = talk.holds();
   switch (random_.index(12)) {
     case 0:

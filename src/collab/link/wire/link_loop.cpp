@@ -320,6 +320,7 @@ struct LinkShares {
   std::optional<TlsContext> client_tls = {};  // of the first connection that needs it
   std::unordered_map<LinkId, std::shared_ptr<WebLink>> links = {};
   LinkId last_id = 0;
+  std::uint64_t distrusted = 0;
 };
 
 /// One connection, of either side: begins, carries frames, ends. Owned by the loop's table until it is over,
@@ -647,6 +648,7 @@ std::string WebLink::connecting_trouble(LinkError error) const {
 }
 
 std::string WebLink::tls_trouble(LinkError error) {
+  if (wire().channel().was_certificate_refused()) ++shares_.distrusted;
   if (wire().channel().was_certificate_refused())
     return name_ + (settings_->fingerprint.empty() ? ": no authority that this computer trusts vouches for "
                                                      "its certificate, so somebody may be in "
@@ -863,6 +865,8 @@ base::Result<Endpoint> LinkLoop::listen_http(const Endpoint& endpoint,
       std::make_unique<HttpListener>(parts_->shares.context, *socket, std::move(answer)));
   return socket->endpoint;
 }
+
+std::uint64_t LinkLoop::distrusted() const { return parts_->shares.distrusted; }
 
 LinkId LinkLoop::connect(const ConnectSettings& settings) {
   LinkShares& shares = parts_->shares;
