@@ -4,6 +4,7 @@
 
 #include <cassert>
 
+#include "io/byte_order.h"
 #include "world/edit/flat_bytes.h"
 
 namespace icome::collab {
@@ -14,14 +15,8 @@ namespace {
 constexpr std::size_t kNumberBytes = 8;
 constexpr std::size_t kPlaceBytes = 2 * kNumberBytes + kContentHashBytes;
 
-void add_number(std::string& bytes, std::uint64_t number) {
-  for (std::size_t i = 0; i < kNumberBytes; ++i) bytes += static_cast<char>(number >> (8 * i) & 0xFFU);
-}
-
 std::uint64_t take_number(std::string_view& bytes) {
-  std::uint64_t number = 0;
-  for (std::size_t i = 0; i < kNumberBytes; ++i)
-    number |= std::uint64_t(static_cast<unsigned char>(bytes[i])) << (8 * i);
+  const auto number = io::load<std::uint64_t>(bytes.data(), io::ByteOrder::LittleEndian);
   bytes.remove_prefix(kNumberBytes);
   return number;
 }
@@ -73,10 +68,10 @@ std::string whole_of(const Outline& outline, const std::vector<ContentPointer>& 
 std::string to_bytes(const Outline& outline) {
   std::string bytes;
   bytes.reserve(kNumberBytes + outline.places.size() * kPlaceBytes + outline.rest.size());
-  add_number(bytes, outline.places.size());
+  io::store<std::uint64_t>(outline.places.size(), io::ByteOrder::LittleEndian, bytes);
   for (const ContentPlace& place : outline.places) {
-    add_number(bytes, place.offset);
-    add_number(bytes, place.size);
+    io::store<std::uint64_t>(place.offset, io::ByteOrder::LittleEndian, bytes);
+    io::store<std::uint64_t>(place.size, io::ByteOrder::LittleEndian, bytes);
     bytes += place.hash;
   }
   return bytes + outline.rest;

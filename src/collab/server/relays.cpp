@@ -7,6 +7,8 @@
 #include <array>
 #include <vector>
 
+#include "io/byte_order.h"
+
 namespace icome::collab {
 namespace {
 
@@ -15,10 +17,6 @@ constexpr std::size_t kMostFrame = 80U << 20U;  // bytes
 constexpr std::size_t kSignatureBytes = 16;
 constexpr std::size_t kLongestName = 255;  // of a server
 constexpr const char* kServerGone = "The server that has the design does not answer.";
-
-void add_number(std::string& bytes, std::uint64_t number) {
-  for (unsigned i = 0; i < 8; ++i) bytes += char(number >> (8 * i) & 0xffU);
-}
 
 /// Takes parts from the front of a message.
 struct Reader {
@@ -104,8 +102,8 @@ void Relays::say(const std::string& server, Message message) {
   bytes += char(message.is_to_guest);
   bytes += char(settings_.id.size());
   bytes += settings_.id;
-  add_number(bytes, message.client);
-  add_number(bytes, message.number);
+  io::store<std::uint64_t>(message.client, io::ByteOrder::LittleEndian, bytes);
+  io::store<std::uint64_t>(message.number, io::ByteOrder::LittleEndian, bytes);
   bytes += message.payload;
   bytes += signature(server, bytes);
   events_.publish(server, std::move(bytes));
