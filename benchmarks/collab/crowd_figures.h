@@ -20,7 +20,8 @@ struct CrowdRow {
   double server_share = 0.0;                      // of one core
   double server_us = 0.0;                         // of processor time for each delivery
   double p50_ms = 0.0, p99_ms = 0.0;              // from the sender's hand to another client
-  double server_kb = 0.0;                         // of memory for each connected client
+  double joined_kb = 0.0;                         // of the server's memory for each client that has joined
+  double working_kb = 0.0;                        // and once they work, with the design's newest edits
   double grant_p50_ms = 0.0, grant_p99_ms = 0.0;  // of a request for an object, meanwhile
 };
 

@@ -1,6 +1,7 @@
 #include "server_process.h"
 
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -31,6 +32,7 @@ ServerProcess::ServerProcess(std::filesystem::path program, std::filesystem::pat
   const std::string listen = fmt::format("127.0.0.1:{}", port);
   process_ = ::fork();
   if (process_ == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // also where the benchmark gives up
     ::dup2(out[1], STDOUT_FILENO);
     ::execl(program.c_str(), program.c_str(), "serve", "--store", store_.c_str(), "--listen", listen.c_str(),
             "--links-an-address", "1000", "--json", nullptr);

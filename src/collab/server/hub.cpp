@@ -430,8 +430,8 @@ void Hub::tick(std::int64_t now, std::int64_t at) {
   now_ = now;
   at_ = at;
   for (auto& [id, link] : links_)
-    if (!link.design && !link.parting && now > link.hello_until)
-      refuse(id, link, "No hello that was good came in time.", Parting::Broken);
+    if (!link.is_checked && !link.parting && now > link.hello_until)
+      refuse(id, link, "No hello came in time.", Parting::Broken);
   end_invitations();
   const auto designs = rooms_;
   for (const auto& [name, design] : designs) {

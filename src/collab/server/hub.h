@@ -39,9 +39,10 @@ struct HubCounters {
 /// Limits and times of a hub.
 struct HubSettings {
   RoomSettings room = {};
-  std::string holder = {};                    // names this server in leases of designs; unique
-  std::int64_t design_lease = 6'000;          // ms
-  std::int64_t hello_time = 5'000;            // ms from the connection to a hello that was found good
+  std::string holder = {};            // names this server in leases of designs; unique
+  std::int64_t design_lease = 6'000;  // ms
+  /// ms from the connection to a hello; a good one may then wait for a slow disk for as long as that takes
+  std::int64_t hello_time = 5'000;
   std::size_t most_hello_bytes = 16U << 10U;  // of a frame before
   double most_messages = 50'000.0;            // a second from one client, and five times as many at once
   std::int64_t idle_time = 30'000;            // ms after which a room without people is closed

@@ -66,6 +66,7 @@ void FileActions::fill(QMenu& menu) {
 }
 
 void FileActions::renew_keep() {
+  if (keep_ == nullptr) return;  // there is no menu
   keep_->setEnabled(session_.sharing().state().has_value());
   keep_->setChecked(session_.sharing().is_kept());
 }

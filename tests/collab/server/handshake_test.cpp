@@ -96,6 +96,19 @@ TEST_F(Handshake, TakesNothingBeforeAHello) {
   }
 }
 
+TEST_F(Handshake, EndsWhoSaysNothingAndLetsWhoHasAGoodHelloWaitForASlowDisk) {
+  hub_.opened(1, "10.0.0.1:1", 0);
+  hub_.opened(2, "10.0.0.1:2", 0);
+  hub_.received(2, frame_of(hello_with(token_for("table"))), 0, kWall);
+  hub_.tick(60'000, kWall + 60'000);
+  EXPECT_TRUE(hub_.next_frame(1, 60'000));
+  EXPECT_TRUE(hub_.parting(1));
+  EXPECT_FALSE(hub_.parting(2));
+  work();
+  EXPECT_TRUE(hub_.next_frame(2, 60'000));
+  EXPECT_FALSE(hub_.parting(2));
+}
+
 // ICOME_MUTATIONS=1000000 tries as many, under sanitizers, too.
 TEST_F(Handshake, LetsNobodyInByChance) {
   base::Random random(9);
