@@ -13,7 +13,7 @@ struct JoinExtent {
   int times = 5;  // each figure is the median of so many
 };
 
-/// How long something took until the design was there, ready to be worked on.
+/// The time until a design was there, ready to be worked on.
 struct JoinRow {
   std::string figure;
   double seconds = 0.0;

@@ -196,7 +196,7 @@ void SessionParts::leave_shared() {
     connection->talk().leave();
     auto done = connection->work_until([&] { return connection->talk().state() != ConversationState::Live; },
                                        [&] { return base::steady_nanoseconds() > until; }, kMostLeaving);
-    // What has not been sent is for the next time.
+    // The next program sends what this one could not.
     if (kept)
       if (const auto written = write_copy(*kept, connection->talk().keep()); !written)
         return tl::unexpected(written.error());

@@ -5,6 +5,7 @@
 
 #include "collab/client/kept_design.h"
 #include "collab/server/served_design.h"
+#include "own_folder.h"
 #include "session/session_sharing.h"
 #include "session/sessions.h"
 
@@ -39,8 +40,13 @@ class SharingKept : public testing::Test {
     session->files().close();
     session.reset();  // waits until the copy is written
   }
-  bool was_told(SessionEvent::Kind kind) const {
-    return std::ranges::any_of(told_, [kind](const SessionEvent& it) { return it.kind == kind; });
+  testing::AssertionResult was_told(SessionEvent::Kind kind) const {
+    std::string all;
+    for (const SessionEvent& it : told_) {
+      if (it.kind == kind) return testing::AssertionSuccess();
+      all += it.text + "\n";
+    }
+    return testing::AssertionFailure() << "told only:\n" << all;
   }
   static void until_sent(Session& session) {
     run_until(session, [&] {
@@ -53,7 +59,7 @@ class SharingKept : public testing::Test {
                                              [&](const auto& it) { return it.second.name == name; }));
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / "icome_sharing_kept";
+  fs::path folder_ = own_folder("kept");
   collab::ServedDesign served_;
   std::string link_;
   std::vector<SessionEvent> told_;

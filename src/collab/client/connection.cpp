@@ -56,7 +56,7 @@ void Connection::take(std::string& frame) {
 void Connection::take(NetworkThread::Closed& closed) {
   is_distrusted_ = closed.is_distrusted;
   last_why_ = talk_.why_ended().empty() ? closed.why : talk_.why_ended();
-  // The same end again, with nothing more on the disk: it would go on like that for ever.
+  // A server that ends it again and again, with nothing more on its disk, would do so for ever.
   const bool is_the_same = !talk_.why_ended().empty() && talk_.replica().durable() == sent_away_at_;
   sent_away_ = is_the_same ? sent_away_ + 1 : 0;
   sent_away_at_ = talk_.replica().durable();

@@ -260,6 +260,7 @@ bool Conversation::make_whole(Ordered& message) {
 }
 
 void Conversation::load() {
+  if (welcome_->snapshot_bytes == 0) return begin_anew({"The server names a snapshot that is empty."});
   const ContentPointer outline = contents_.outline(welcome_->snapshot_hash, welcome_->snapshot_bytes);
   if (!outline) return want_contents();
   auto whole = contents_.whole(*outline);

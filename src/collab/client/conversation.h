@@ -100,7 +100,7 @@ class Conversation {
   base::Result<std::uint64_t> redo() { return turn(false); }
 
   // ---- kept for another program
-  /// What the next program needs to go on from here; nothing: there is no durable world now.
+  /// The copy from which the next program can go on; nothing: there is no durable world now.
   std::optional<KeptCopy> keep() const;
   /// Goes on from such a copy. Before the first connection, with the copy's key as one's own.
   void resume(const KeptCopy& copy);

@@ -410,7 +410,7 @@ base::Result<void> Replica::rewind() {
   }
   for (; !covered_.empty(); covered_.pop_back()) pending_.push_front(std::move(covered_.back()));
   sequence_ = base_;
-  // Where others worked meanwhile, people choose.
+  // People choose where others worked meanwhile, so the server need not guard against it.
   for (Pending& it : pending_) it.sent = it.takes_back = false;
   redo_pending();
   return {};

@@ -29,7 +29,7 @@ class ContentFetcher {
   std::vector<Fetch> questions();
   /// Fails for a content that the server does not have any more, and for one that is not what its name says.
   base::Result<void> take(const Piece& piece);
-  /// What was asked for will not come.
+  /// Ends what is under way; all that has come stays.
   void connection_lost();
 
   /// Bytes that have come of what is fetched, and all of them.

@@ -21,13 +21,14 @@ class ContentShelf {
     std::vector<ContentPointer> contents = {};
     std::size_t bytes = 0;  // of the contents
   };
-  /// Of an edit (world::to_bytes); without contents it has no outline.
+  /// Takes an edit (world::to_bytes). One without contents gets no outline.
   Shelved take_edit(std::string_view edit);
-  /// Of a world (world_to_bytes); its outline is a content itself, of this name.
+  /// A world whose outline is a content itself, of this name.
   struct ShelvedWorld {
     ContentHash hash = {};
     Shelved shelved = {};
   };
+  /// Takes a world (world_to_bytes).
   ShelvedWorld take_world(std::string_view world);
 
   /// Null: it is not here (any more).

@@ -92,7 +92,7 @@ base::Result<Outline> outline_from_bytes(std::string_view bytes) {
     bytes.remove_prefix(kContentHashBytes);
     const std::uint64_t end =
         outline.places.empty() ? 0 : outline.places.back().offset + outline.places.back().size;
-    if (place.offset < end || place.size > world::kMostReadBytes - cut) return damaged();
+    if (place.offset < end || place.size == 0 || place.size > world::kMostReadBytes - cut) return damaged();
     cut += place.size;
     outline.places.push_back(std::move(place));
   }

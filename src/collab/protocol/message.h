@@ -130,7 +130,7 @@ struct Refused {
   std::string why = {};
   Parting code = Parting::Other;
 };
-/// Of a content; without bytes: it is not here any more.
+/// A part of a content. One without bytes says that the server does not have it any more.
 struct Piece {
   std::string hash = {};
   std::uint64_t offset = 0;

@@ -284,8 +284,8 @@ void DesignServer::close(LinkId link, const std::string& why) {
   loop_->post([this, link] { forget(link); });
 }
 
-/// What has happened is followed by one look at who has to hear of it, behind all else that has come in, and
-/// where very many have to hear of much, behind what comes in soon.
+/// Looks once, behind all else that has come in, who has to hear of what has happened; a little later where
+/// very many have to hear of much.
 void DesignServer::stir() {
   if (!std::exchange(is_log_stirred_, true))
     loop_->post([this] {
@@ -300,7 +300,7 @@ void DesignServer::look_soon() {
   loop_->after(std::chrono::microseconds(1'000 * gather_ / std::int64_t(kTurns)), [this] { look(); });
 }
 
-/// Where what is to be said is gathered, the connections take turns: a burst to all of them would keep the
+/// Lets connections take turns where what is to be said is gathered: a burst to all of them would keep the
 /// last ones waiting.
 void DesignServer::look() {
   for (const LinkId link : hub_.take_stirred()) turns_[link % kTurns].insert(link);

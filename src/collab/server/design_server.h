@@ -115,7 +115,7 @@ class DesignServer final : private LinkEvents, private RelayEvents {
   bool is_homeless_ = false;     // the store is not at its place any more
   std::int64_t stop_until_ = 0;  // ms
   std::int64_t started_ = 0;     // ms
-  /// How far a connection is with what it is sent.
+  /// The state of what is sent to a connection.
   struct Sending {
     bool is_under_way = false;  // its last frame
     bool goes_on = false;       // more waits for it than one frame holds, or came while that was under way

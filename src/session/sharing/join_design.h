@@ -10,7 +10,7 @@
 
 namespace icome::session {
 
-/// What the thread that joined a design hands over, besides the design.
+/// All that the thread which joined a design hands over, besides the design.
 struct JoinedDesign {
   std::unique_ptr<collab::Connection> connection = nullptr;  // null: the server lets one in no more
   std::shared_ptr<const collab::KeptDesign> kept = nullptr;  // not null: kept for offline work

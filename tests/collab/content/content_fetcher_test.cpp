@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "collab/storage/random_bytes.h"
+#include "own_folder.h"
 
 namespace icome::collab {
 namespace {
@@ -58,10 +59,10 @@ class ContentFetcherTest : public testing::Test {
   ContentCachePointer cache(std::uint64_t most = FolderContents::kMostBytes) const {
     return std::make_shared<FolderContents>(folder_, most);
   }
-  fs::path folder_ = fs::path(testing::TempDir()) / "icome_content_fetcher";
+  fs::path folder_ = own_folder("contents");
   ContentSource source_;
   const std::string one_ = long_bytes('1', 1'000'000), other_ = long_bytes('2', 300'000);
-  /// Of two contents, one of them twice.
+  /// An outline with two contents, one of them twice.
   const Outline outline_ = [this] {
     source_.add(one_);
     source_.add(other_);

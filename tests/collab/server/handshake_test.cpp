@@ -35,7 +35,7 @@ class Handshake : public testing::Test {
   void work() {
     while (const StorageWork work = hub_.next_work()) work(log_)();
   }
-  /// What a client hears that begins with this frame, until it is sent away or in.
+  /// All that a client hears who begins with this frame, until it is sent away or in.
   std::vector<ServerMessage> answers_to(std::string_view frame) {
     const LinkId link = ++last_link_;
     hub_.opened(link, "10.0.0.1:1", 0);

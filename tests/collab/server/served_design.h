@@ -12,6 +12,7 @@
 #include "collab/server/token.h"
 #include "collab/storage/sqlite_op_log.h"
 #include "collab/storage/store_folder.h"
+#include "own_folder.h"
 
 namespace icome::collab {
 
@@ -19,9 +20,6 @@ namespace icome::collab {
 class ServedDesign {
  public:
   ServedDesign() {
-    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("icome_server_") + test->test_suite_name() + "_" + test->name());
     std::filesystem::remove_all(folder_);
     start();
   }
@@ -60,7 +58,7 @@ class ServedDesign {
   std::string link(Role role) const { return link_text(address(role)); }
 
  private:
-  std::filesystem::path folder_;
+  std::filesystem::path folder_ = own_folder("server");
   Endpoint endpoint_ = {};
   std::unique_ptr<DesignServer> server_;
   std::atomic<bool> ends_ = false;

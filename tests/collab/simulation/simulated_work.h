@@ -133,7 +133,7 @@ class SimulatedWork {
   std::int64_t now_ = 1'000;
   std::int64_t wall_ = 1'700'000'000'000;
   RememberingLog log_;
-  /// Of the first client, through all its lives; the others keep nothing.
+  /// Kept by the first client through all its lives; the others keep nothing.
   std::shared_ptr<MemoryContents> contents_ = std::make_shared<MemoryContents>();
   std::unique_ptr<Hub> hub_;
   std::int64_t server_back_ = 0;
