@@ -35,7 +35,7 @@ class DesktopSharingTest(DesktopTest):
     def sit_down(self, screen, name):
         """Somebody's window with the design."""
         home = self.folder / name
-        home.mkdir()
+        home.mkdir(exist_ok=True)
         desktop = Desktop(screen, home, self.link, "--theme", "light", environment={"ICOME_NAME": name})
         self.addCleanup(self.clear_away, desktop)
         desktop.open()
@@ -52,6 +52,62 @@ class DesktopSharingTest(DesktopTest):
     def drag_middle(self, desktop):
         x, y = self.middle(desktop)
         desktop.drag((x, y), (x + 60, y + 10))
+
+    def kept(self, *arguments):
+        """`icome keep` as Ann."""
+        return run("keep", *arguments, XDG_DATA_HOME=str(self.folder / "Ann" / "data"))
+
+    def apply(self, edit):
+        script = self.folder / "script.jsonl"
+        script.write_text(edit + "\n")
+        self.assertEqual(run("edit", self.link, "--apply", script).returncode, 0)
+
+    def unsent(self):
+        return [it["unsent"] for it in json.loads(self.kept("--list", "--json").stdout)["kept"]]
+
+    def work_alone(self, picture):
+        """Ann opens the kept design without the server, drags the leg and leaves: nothing is asked."""
+        ann = self.sit_down(self.screen, "Ann")
+        wait_for("the word that the server is away", lambda: shows_banner(ann, "warning"))
+        bare = ann.settled_scene()
+        ann.click(self.middle(ann))
+        ann.wait_scene("the outline of the leg", lambda it: it.changed(bare) > 0.003)
+        before = ann.settled_scene()
+        self.drag_middle(ann)
+        ann.wait_scene("the leg elsewhere", lambda it: it.changed(before) > 0.003)
+        self.keep(ann, picture)
+        ann.quit()
+        self.assertEqual(ann.wait_end(), 0)
+
+    def leg_bounds(self):
+        return json.loads(run("info", self.link, "--json").stdout)["bounds"]
+
+    def test_a_kept_design_is_worked_on_without_its_server(self):
+        self.apply(LEG)
+        first = self.leg_bounds()
+        self.assertEqual(self.kept(self.link).returncode, 0)
+        self.server.kill()
+        self.work_alone("sharing-alone")
+        self.assertEqual(self.unsent(), [1])
+        self.server.start()
+        self.assertEqual(self.leg_bounds(), first)
+        sent = self.kept(self.link)
+        self.assertEqual(sent.returncode, 0, sent.stderr)
+        self.assertIn("was sent", sent.stderr)
+        second = self.leg_bounds()
+        self.assertNotEqual(second, first)
+        self.assertEqual(self.unsent(), [0])
+
+        self.server.kill()
+        self.work_alone("sharing-alone-again")
+        self.server.start()
+        self.apply(line(op="move", objects="leg", by=[1, 0, 0]))
+        third = self.leg_bounds()
+        refused = self.kept(self.link)
+        self.assertEqual(refused.returncode, 1, "there is something to choose")
+        self.assertIn("nothing was sent", refused.stderr)
+        self.assertEqual(self.leg_bounds(), third)
+        self.assertEqual(self.unsent(), [1], "it is not lost either")
 
     def test_two_windows_on_two_displays(self):
         with Watcher(self.link, LEG + "\n", name="Script") as third:
