@@ -11,6 +11,7 @@
 #include "base/shown_text.h"
 #include "base/utf8.h"
 #include "collab/storage/design_state.h"
+#include "collab/storage/log_sums.h"
 #include "collab/storage/postgres_schema.h"
 
 namespace icome::collab {
@@ -50,12 +51,14 @@ constexpr PostgresStatement kUpdateSequences{
     "unnest($1::bigint[], $2::bigint[], $3::bigint[]) AS now (id, sequence, bytes) WHERE design.id = now.id"};
 constexpr PostgresStatement kInsertEdits{
     "insert_edits",
-    "INSERT INTO icome.edits (design, sequence, author, number, at, edit) SELECT * FROM unnest($1::bigint[], "
-    "$2::bigint[], $3::bigint[], $4::bigint[], $5::bigint[], $6::bytea[])"};
+    "INSERT INTO icome.edits (design, sequence, author, number, at, edit, sum) SELECT * FROM "
+    "unnest($1::bigint[], $2::bigint[], $3::bigint[], $4::bigint[], $5::bigint[], $6::bytea[], "
+    "$7::bigint[])"};
 // The first $3 edits behind $2 whose bytes together are at most $4, and in any case the edit $5.
 constexpr PostgresStatement kReadEdits{
     "read_edits",
-    "SELECT sequence, author, number, at, edit FROM (SELECT *, sum(octet_length(edit)) OVER (ORDER BY "
+    "SELECT sequence, author, number, at, edit, coalesce(sum, -1) FROM (SELECT *, sum(octet_length(edit)) "
+    "OVER (ORDER BY "
     "sequence "
     "ROWS UNBOUNDED PRECEDING) AS total FROM (SELECT * FROM icome.edits WHERE design = $1 AND sequence > $2 "
     "ORDER "
@@ -65,12 +68,13 @@ constexpr PostgresStatement kBytesBehind{"bytes_behind",
                                          "icome.edits WHERE design = $1 AND sequence > $2"};
 constexpr PostgresStatement kForgetEdits{"forget_edits",
                                          "DELETE FROM icome.edits WHERE design = $1 AND sequence <= $2"};
-constexpr PostgresStatement kReadSnapshot{"read_snapshot",
-                                          "SELECT sequence, bytes FROM icome.snapshots WHERE design = $1"};
-constexpr PostgresStatement kWriteSnapshot{"write_snapshot",
-                                           "INSERT INTO icome.snapshots (design, sequence, bytes) VALUES "
-                                           "($1, $2, $3) ON CONFLICT (design) DO UPDATE SET "
-                                           "sequence = excluded.sequence, bytes = excluded.bytes"};
+constexpr PostgresStatement kReadSnapshot{
+    "read_snapshot", "SELECT sequence, bytes, coalesce(sum, -1) FROM icome.snapshots WHERE design = $1"};
+constexpr PostgresStatement kWriteSnapshot{
+    "write_snapshot",
+    "INSERT INTO icome.snapshots (design, sequence, bytes, sum) VALUES "
+    "($1, $2, $3, $4) ON CONFLICT (design) DO UPDATE SET sequence = "
+    "excluded.sequence, bytes = excluded.bytes, sum = excluded.sum"};
 constexpr PostgresStatement kUpdateSnapshot{
     "update_snapshot",
     "UPDATE icome.designs SET kept_after = $2, snapshot_sequence = $3, bytes = $4 WHERE id = $1"};
@@ -170,7 +174,7 @@ base::Result<void> without_rows(const base::Result<PostgresRows>& rows) {
 struct EditColumns {
   using Of = PostgresArray::Of;
   PostgresArray designs{Of::Numbers}, sequences{Of::Numbers}, authors{Of::Numbers}, numbers{Of::Numbers},
-      times{Of::Numbers}, edits{Of::Bytes};
+      times{Of::Numbers}, edits{Of::Bytes}, sums{Of::Numbers};
   std::uint64_t bytes = 0;
 
   void add(std::int64_t design, const LogEntry& entry) {
@@ -180,6 +184,7 @@ struct EditColumns {
     numbers.add(entry.number);
     times.add(entry.at);
     edits.add(entry.edit);
+    sums.add(std::int64_t{sum_of(entry)});
     bytes += entry.edit.size();
   }
 };
@@ -364,7 +369,7 @@ void PostgresOpLog::Parts::write_edits(std::span<const Append> batches, const Re
     if (columns.designs.count() == 0) return;
     connection.queue(statements::kInsertEdits, columns.designs.value(), columns.sequences.value(),
                      columns.authors.value(), columns.numbers.value(), columns.times.value(),
-                     columns.edits.value());
+                     columns.edits.value(), columns.sums.value());
     columns = {};
   };
   for (std::size_t i = 0; i < batches.size(); ++i) {
@@ -433,6 +438,8 @@ base::Result<std::vector<LogEntry>> PostgresOpLog::read_from(const std::string& 
                            .at = rows->integer(i, 3),
                            .edit = rows->bytes(i, 4)});
         bytes += entries.back().edit.size();
+        if (const auto whole = demand_sum(design, entries.back(), rows->integer(i, 5)); !whole)
+          return tl::unexpected(whole.error());
       }
       if (rows->count() < kEditsInOneRead) break;
       last = entries.back().sequence;
@@ -448,7 +455,11 @@ base::Result<std::optional<Snapshot>> PostgresOpLog::snapshot(const std::string&
     parts_->connection.queue(statements::kTakeTime);
     const auto rows = parts_->connection.run(statements::kReadSnapshot, found->id);
     if (!rows) return tl::unexpected(rows.error());
-    return rows->count() > 0 ? std::optional(Snapshot{rows->natural(0, 0), rows->bytes(0, 1)}) : std::nullopt;
+    if (rows->count() == 0) return std::nullopt;
+    Snapshot snapshot{rows->natural(0, 0), rows->bytes(0, 1)};
+    if (const auto whole = demand_sum(design, snapshot, rows->integer(0, 2)); !whole)
+      return tl::unexpected(whole.error());
+    return snapshot;
   });
 }
 
@@ -468,7 +479,8 @@ base::Result<void> PostgresOpLog::save_snapshot(const std::string& design, std::
     const auto behind = connection.run(statements::kBytesBehind, found->id, snapshot.sequence);
     if (!behind) return tl::unexpected(behind.error());
     count_snapshot(state, snapshot, keep_after, behind->natural(0, 0));
-    connection.queue(statements::kWriteSnapshot, found->id, snapshot.sequence, snapshot.bytes);
+    connection.queue(statements::kWriteSnapshot, found->id, snapshot.sequence, snapshot.bytes,
+                     std::int64_t{sum_of(snapshot)});
     connection.queue(statements::kForgetEdits, found->id, state.kept_after);
     connection.queue(statements::kUpdateSnapshot, found->id, state.kept_after, state.snapshot_sequence,
                      state.bytes);

@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <span>
 
 namespace icome::collab {
 namespace {
 
-constexpr std::int64_t kSchemaVersion = 1;
+constexpr std::int64_t kSchemaVersion = 2;
 
 // A design's row is written at every commit: half of each page is left free for its next version. Edits have
 // no foreign key, which would be looked up for each of them: they are only written behind the lock of their
@@ -33,12 +34,14 @@ constexpr const char* kMakeSchemaTables[] = {
       number bigint NOT NULL,
       at bigint NOT NULL,
       edit bytea NOT NULL,
+      sum bigint,
       PRIMARY KEY (design, sequence)
     ))",
     R"(CREATE TABLE icome.snapshots (
       design bigint PRIMARY KEY REFERENCES icome.designs,
       sequence bigint NOT NULL,
-      bytes bytea NOT NULL
+      bytes bytea NOT NULL,
+      sum bigint
     ))",
     // Packing a large world would take longer than writing it.
     "ALTER TABLE icome.snapshots ALTER COLUMN bytes SET STORAGE EXTERNAL",
@@ -64,10 +67,23 @@ constexpr const char* kMakeSchemaTables[] = {
     "CREATE TABLE icome.store (version bigint NOT NULL)",
 };
 
+// Version 1 had no sums. A server of that version that is connected goes on, and writes rows without them.
+constexpr const char* kAddSumColumns[] = {"ALTER TABLE icome.edits ADD COLUMN sum bigint",
+                                          "ALTER TABLE icome.snapshots ADD COLUMN sum bigint",
+                                          "UPDATE icome.store SET version = 2"};
+
 base::Result<bool> is_there(PostgresConnection& connection, const char* sql) {
   const auto rows = connection.execute(sql);
   if (!rows) return tl::unexpected(rows.error());
   return rows->count() > 0;
+}
+
+base::Result<void> execute_all(PostgresConnection& connection, std::span<const char* const> statements) {
+  for (const char* const sql : statements) {
+    const auto done = connection.execute(sql);
+    if (!done) return tl::unexpected(done.error());
+  }
+  return {};
 }
 
 /// The version of the tables; nothing where there are none.
@@ -87,7 +103,7 @@ base::Result<void> judge_schema(std::int64_t version, const std::string& place) 
         fmt::format("{}: its store is that of a newer version of icome (store version {}, this one "
                     "knows {}). Use that version.",
                     place, version, kSchemaVersion));
-  if (version < kSchemaVersion)
+  if (version < 1)
     return base::fail(place +
                       ": the store in it is damaged (it has no version). Restore a backup of the database.");
   return {};
@@ -102,10 +118,7 @@ base::Result<void> make_schema(PostgresConnection& connection) {
     const auto made = connection.execute("CREATE SCHEMA icome");
     if (!made) return tl::unexpected(made.error());
   }
-  for (const char* const sql : kMakeSchemaTables) {
-    const auto made = connection.execute(sql);
-    if (!made) return tl::unexpected(made.error());
-  }
+  if (const auto made = execute_all(connection, kMakeSchemaTables); !made) return made;
   const std::string mark = fmt::format("INSERT INTO icome.store VALUES ({})", kSchemaVersion);
   const auto marked = connection.execute(mark.c_str());
   if (!marked) return tl::unexpected(marked.error());
@@ -117,15 +130,17 @@ base::Result<void> make_schema(PostgresConnection& connection) {
 base::Result<void> make_postgres_store(PostgresConnection& connection) {
   const auto version = schema_version(connection);
   if (!version) return tl::unexpected(version.error());
-  if (*version) return judge_schema(**version, connection.place());
+  if (*version == kSchemaVersion) return {};
   return connection.transact("BEGIN", [&]() -> base::Result<void> {
     // Any number of ours ("ICOM") that all servers know.
     const auto locked = connection.execute("SELECT pg_advisory_xact_lock(1229147981)");
     if (!locked) return tl::unexpected(locked.error());
     const auto now = schema_version(connection);
     if (!now) return tl::unexpected(now.error());
-    if (*now) return judge_schema(**now, connection.place());  // another server was faster
-    return make_schema(connection);
+    if (!*now) return make_schema(connection);
+    if (const auto good = judge_schema(**now, connection.place()); !good) return good;
+    const bool is_old = **now < kSchemaVersion;  // else another server was faster
+    return is_old ? execute_all(connection, kAddSumColumns) : base::Result<void>();
   });
 }
 

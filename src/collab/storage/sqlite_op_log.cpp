@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "collab/storage/log_sums.h"
 #include "collab/storage/sqlite_schema.h"
 
 namespace icome::collab {
@@ -85,15 +86,16 @@ base::Result<void> SqliteOpLog::Parts::prepare() {
        "UPDATE designs SET sequence = ?2, kept_after = ?3, snapshot_sequence = ?4, bytes = ?5, fence = ?6, "
        "holder = ?7, lease_ends = ?8, lease_length = ?9 WHERE id = ?1"},
       {&insert_edit,
-       "INSERT INTO edits (design, sequence, author, number, at, edit) VALUES (?, ?, ?, ?, ?, ?)"},
+       "INSERT INTO edits (design, sequence, author, number, at, edit, sum) VALUES (?, ?, ?, ?, ?, ?, ?)"},
       {&read_edits,
-       "SELECT sequence, author, number, at, edit, length(edit) FROM edits WHERE design = ? AND sequence > ? "
-       "ORDER "
-       "BY sequence"},
+       "SELECT sequence, author, number, at, edit, coalesce(sum, -1) FROM edits WHERE design = ? AND "
+       "sequence > "
+       "? ORDER BY sequence"},
       {&bytes_behind, "SELECT coalesce(sum(length(edit)), 0) FROM edits WHERE design = ? AND sequence > ?"},
       {&forget_edits, "DELETE FROM edits WHERE design = ? AND sequence <= ?"},
-      {&read_snapshot, "SELECT sequence, bytes FROM snapshots WHERE design = ?"},
-      {&write_snapshot, "INSERT OR REPLACE INTO snapshots (design, sequence, bytes) VALUES (?, ?, ?)"},
+      {&read_snapshot, "SELECT sequence, bytes, coalesce(sum, -1) FROM snapshots WHERE design = ?"},
+      {&write_snapshot,
+       "INSERT OR REPLACE INTO snapshots (design, sequence, bytes, sum) VALUES (?, ?, ?, ?)"},
       {&find_author, "SELECT author, last_number FROM authors WHERE design = ? AND key = ?"},
       {&insert_author,
        "INSERT INTO authors (design, author, key) VALUES (?1, (SELECT coalesce(max(author), 0) + 1 FROM "
@@ -233,10 +235,10 @@ base::Result<std::optional<AppendError>> SqliteOpLog::Parts::append(const Append
   if (auto why = why_not_appended(design->state, append)) return why;
   count_appended(design->state, append);
   for (const LogEntry& entry : append.batch) {
-    const auto inserted =
-        insert_edit
-            .run(design->id, entry.sequence, entry.author, entry.number, entry.at, SqliteBlob{entry.edit})
-            .finish();
+    const auto inserted = insert_edit
+                              .run(design->id, entry.sequence, entry.author, entry.number, entry.at,
+                                   SqliteBlob{entry.edit}, sum_of(entry))
+                              .finish();
     if (!inserted) return tl::unexpected(inserted.error());
     std::uint64_t& last = changes.last_numbers[{design->id, entry.author}];
     last = std::max(last, entry.number);
@@ -269,13 +271,16 @@ base::Result<std::vector<LogEntry>> SqliteOpLog::read_from(const std::string& de
     SqliteRun run = parts_->read_edits.run(found->id, after);
     auto more = run.next();
     for (; more && *more; more = run.next()) {
-      bytes += run.natural(5);
+      LogEntry entry{.sequence = run.natural(0),
+                     .author = std::uint32_t(run.natural(1)),
+                     .number = run.natural(2),
+                     .at = run.integer(3),
+                     .edit = run.bytes(4)};
+      bytes += entry.edit.size();
       if (!entries.empty() && bytes > most_bytes) break;
-      entries.push_back({.sequence = run.natural(0),
-                         .author = std::uint32_t(run.natural(1)),
-                         .number = run.natural(2),
-                         .at = run.integer(3),
-                         .edit = run.bytes(4)});
+      if (const auto whole = demand_sum(design, entry, run.integer(5)); !whole)
+        return tl::unexpected(whole.error());
+      entries.push_back(std::move(entry));
     }
     if (!more) return tl::unexpected(more.error());
     return entries;
@@ -289,7 +294,11 @@ base::Result<std::optional<Snapshot>> SqliteOpLog::snapshot(const std::string& d
     SqliteRun run = parts_->read_snapshot.run(found->id);
     const auto row = run.next();
     if (!row) return tl::unexpected(row.error());
-    return *row ? std::optional(Snapshot{run.natural(0), run.bytes(1)}) : std::nullopt;
+    if (!*row) return std::nullopt;
+    Snapshot snapshot{run.natural(0), run.bytes(1)};
+    if (const auto whole = demand_sum(design, snapshot, run.integer(2)); !whole)
+      return tl::unexpected(whole.error());
+    return snapshot;
   });
 }
 
@@ -304,7 +313,8 @@ base::Result<void> SqliteOpLog::save_snapshot(const std::string& design, std::ui
     if (const auto row = behind.next(); !row) return tl::unexpected(row.error());
     count_snapshot(found->state, snapshot, keep_after, behind.natural(0));
     const auto written =
-        parts_->write_snapshot.run(found->id, snapshot.sequence, SqliteBlob{snapshot.bytes}).finish();
+        parts_->write_snapshot.run(found->id, snapshot.sequence, SqliteBlob{snapshot.bytes}, sum_of(snapshot))
+            .finish();
     if (!written) return written;
     const auto forgotten = parts_->forget_edits.run(found->id, found->state.kept_after).finish();
     if (!forgotten) return forgotten;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kStoreApplication =
     0x49434f4d;  // "ICOM", by which programs such as file(1) tell databases
-constexpr std::int64_t kStoreVersion = 1;
+constexpr std::int64_t kStoreVersion = 2;
 
 // A design's row has, besides what is its own, what could be had from its edits: it is read for every append.
 constexpr const char* kMakeTables = R"(
@@ -35,12 +35,14 @@ CREATE TABLE edits (
   number INTEGER NOT NULL,
   at INTEGER NOT NULL,
   edit BLOB NOT NULL,
+  sum INTEGER,
   PRIMARY KEY (design, sequence)
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE snapshots (
   design INTEGER PRIMARY KEY REFERENCES designs (id),
   sequence INTEGER NOT NULL,
-  bytes BLOB NOT NULL
+  bytes BLOB NOT NULL,
+  sum INTEGER
 ) STRICT;
 CREATE TABLE authors (
   design INTEGER NOT NULL REFERENCES designs (id),
@@ -54,6 +56,13 @@ CREATE TABLE revoked (
   number INTEGER PRIMARY KEY,
   invitation TEXT NOT NULL UNIQUE
 ) STRICT;
+)";
+
+// Version 1 had no sums: its edits and snapshots are believed as they are.
+constexpr const char* kAddSums = R"(
+ALTER TABLE edits ADD COLUMN sum INTEGER;
+ALTER TABLE snapshots ADD COLUMN sum INTEGER;
+PRAGMA user_version = 2;
 )";
 
 struct StoreMarks {
@@ -80,7 +89,7 @@ base::Result<void> judge_marks(const StoreMarks& marks, const SqliteDatabase& da
         fmt::format("{}: was written by a newer version of icome (store version {}, this one knows "
                     "{}). Use that version.",
                     name, marks.version, kStoreVersion));
-  if (marks.version < kStoreVersion) return tl::unexpected(sqlite_error(SQLITE_CORRUPT, database.path()));
+  if (marks.version < 1) return tl::unexpected(sqlite_error(SQLITE_CORRUPT, database.path()));
   return {};
 }
 
@@ -93,6 +102,14 @@ base::Result<void> make_tables(const SqliteDatabase& database) {
     const std::string mark =
         fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kStoreApplication, kStoreVersion);
     return database.execute(mark.c_str());
+  });
+}
+
+base::Result<void> add_sums(const SqliteDatabase& database) {
+  return database.transact("BEGIN IMMEDIATE", [&]() -> base::Result<void> {
+    const auto has = has_sums(database);
+    if (!has) return tl::unexpected(has.error());
+    return *has ? base::Result<void>() : database.execute(kAddSums);  // another process may have been faster
   });
 }
 
@@ -120,6 +137,12 @@ base::Result<void> begin_write_ahead(const SqliteDatabase& database) {
 
 }  // namespace
 
+base::Result<bool> has_sums(const SqliteDatabase& database) {
+  const auto version = database.number("PRAGMA user_version");
+  if (!version) return tl::unexpected(version.error());
+  return *version >= 2;
+}
+
 base::Result<void> demand_store(const SqliteDatabase& database) {
   const auto marks = marks_of(database);
   if (!marks) return tl::unexpected(marks.error());
@@ -134,7 +157,7 @@ base::Result<void> make_store(const SqliteDatabase& database) {
     if (const auto good = judge_marks(*marks, database); !good) return good;
   }
   if (const auto begun = begin_write_ahead(database); !begun) return begun;
-  return marks->is_empty() ? make_tables(database) : base::Result<void>();
+  return marks->is_empty() ? make_tables(database) : add_sums(database);
 }
 
 }  // namespace icome::collab

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "base/shown_text.h"
+#include "collab/storage/log_sums.h"
 #include "collab/storage/sqlite_schema.h"
 #include "io/open_file.h"
 
@@ -67,6 +68,58 @@ base::Result<void> add_findings_of_rule(const SqliteDatabase& database, const St
     findings.push_back(
         fmt::format(fmt::runtime(rule.finding), base::shown_text(run.bytes(0)), run.integer(1)));
   if (!more) return tl::unexpected(more.error());
+  return {};
+}
+
+/// The rows whose sums do not fit them; of many, the first ones.
+class DamagedRows {
+ public:
+  explicit DamagedRows(std::vector<std::string>& findings) : findings_(findings) {}
+  void add(const base::Result<void>& fits) {
+    if (fits || ++count_ > kMostTold) return;
+    findings_.push_back(fits.error().message);
+  }
+  void close() {
+    if (count_ > kMostTold) findings_.push_back(fmt::format("{} more are damaged.", count_ - kMostTold));
+  }
+
+ private:
+  static constexpr std::size_t kMostTold = 20;
+  std::vector<std::string>& findings_;
+  std::size_t count_ = 0;
+};
+
+base::Result<void> add_findings_of_sums(const SqliteDatabase& database, std::vector<std::string>& findings) {
+  const auto has = has_sums(database);
+  if (!has) return tl::unexpected(has.error());
+  if (!*has) return {};
+  auto edits = database.prepare(
+      "SELECT name, edits.sequence, author, number, at, edit, coalesce(sum, -1) FROM edits JOIN designs ON "
+      "id = design ORDER BY design, edits.sequence");
+  if (!edits) return tl::unexpected(edits.error());
+  auto snapshots = database.prepare(
+      "SELECT name, snapshots.sequence, snapshots.bytes, coalesce(sum, -1) FROM snapshots JOIN designs ON id "
+      "= "
+      "design");
+  if (!snapshots) return tl::unexpected(snapshots.error());
+  DamagedRows damaged(findings);
+  SqliteRun edit = edits->run();
+  auto more = edit.next();
+  for (; more && *more; more = edit.next()) {
+    const LogEntry entry{.sequence = edit.natural(1),
+                         .author = std::uint32_t(edit.natural(2)),
+                         .number = edit.natural(3),
+                         .at = edit.integer(4),
+                         .edit = edit.bytes(5)};
+    damaged.add(demand_sum(edit.bytes(0), entry, edit.integer(6)));
+  }
+  if (!more) return tl::unexpected(more.error());
+  SqliteRun snapshot = snapshots->run();
+  for (more = snapshot.next(); more && *more; more = snapshot.next())
+    damaged.add(
+        demand_sum(snapshot.bytes(0), Snapshot{snapshot.natural(1), snapshot.bytes(2)}, snapshot.integer(3)));
+  if (!more) return tl::unexpected(more.error());
+  damaged.close();
   return {};
 }
 
@@ -195,7 +248,7 @@ base::Result<std::vector<std::string>> check_store(const fs::path& path) {
     if (const auto file = add_findings_of_file(*database, findings); !file) return file;
     for (const StoreRule& rule : kStoreRules)
       if (const auto kept = add_findings_of_rule(*database, rule, findings); !kept) return kept;
-    return {};
+    return add_findings_of_sums(*database, findings);
   });
   if (!checked) findings.push_back(checked.error().message);  // damaged such that the check could not go on
   return findings;

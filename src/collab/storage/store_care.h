@@ -10,8 +10,8 @@ namespace icome::collab {
 // What an administrator does with the database of a store, while a server uses it or not.
 
 /// What is wrong with a store's database, or a backup of one, a sentence each; nothing if all is well: the
-/// file itself, the sequences of edits without gaps from the snapshot on, and that what is written twice
-/// agrees. Fails for a file that cannot be read as a store at all.
+/// file itself, the sequences of edits without gaps from the snapshot on, that what is written twice agrees,
+/// and the sums of edits and snapshots. Fails for a file that cannot be read as a store at all.
 base::Result<std::vector<std::string>> check_store(const std::filesystem::path& database);
 
 /// Copies the state of this moment into one file, which only its owner can read and which is there whole or

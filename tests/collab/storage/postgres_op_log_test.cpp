@@ -330,13 +330,36 @@ TEST_F(PostgresOpLogTest, KnowsNoDesignWhoseNameIsNoText) {
 
 TEST_F(PostgresOpLogTest, RefusesANewerVersion) {
   (void)opened();
-  meddle("UPDATE icome.store SET version = 2");
+  meddle("UPDATE icome.store SET version = 3");
   EXPECT_EQ(opening_sentence(), place() +
-                                    ": its store is that of a newer version of icome (store version 2, this "
-                                    "one knows 1). Use that version.");
+                                    ": its store is that of a newer version of icome (store version 3, this "
+                                    "one knows 2). Use that version.");
   meddle("DELETE FROM icome.store");
   EXPECT_EQ(opening_sentence(),
             place() + ": the store in it is damaged (it has no version). Restore a backup of the database.");
+}
+
+TEST_F(PostgresOpLogTest, TakesAStoreFromBeforeThereWereSums) {
+  PostgresOpLog before = opened();
+  good(before.create("a"));
+  const std::uint64_t fence = good(before.lease("a", "server", 60'000)).fence;
+  ASSERT_FALSE(append_to(before, "a", 0, fence, sample_entries(0, 3)));
+  good(before.save_snapshot("a", fence, {1, "a world"}, 0));
+  meddle("ALTER TABLE icome.edits DROP COLUMN sum");
+  meddle("ALTER TABLE icome.snapshots DROP COLUMN sum");
+  meddle("UPDATE icome.store SET version = 1");
+  PostgresOpLog log = opened();
+  EXPECT_EQ(good(log.read_from("a", 0, 100'000)), sample_entries(0, 3));
+  EXPECT_EQ(good(log.snapshot("a")).value().bytes, "a world");
+  ASSERT_FALSE(append_to(log, "a", 3, fence, sample_entries(3, 1)));
+  meddle("UPDATE icome.edits SET at = at + 1");
+  EXPECT_EQ(good(log.read_from("a", 0, 1)).size(), 1U) << "it has no sum";
+  EXPECT_EQ(sentence_of(log.read_from("a", 3, 100'000)),
+            "a: the edit 4 is not what was written: the store is damaged. Restore a backup.");
+  good(log.save_snapshot("a", fence, {2, "the world"}, 0));
+  meddle("UPDATE icome.snapshots SET bytes = 'thy world'");
+  EXPECT_EQ(sentence_of(log.snapshot("a")),
+            "a: the snapshot of 2 is not what was written: the store is damaged. Restore a backup.");
 }
 
 TEST_F(PostgresOpLogTest, RefusesAnotherProgramsSchema) {

@@ -87,9 +87,17 @@ INSTANTIATE_TEST_SUITE_P(
                     PlantedFault{"UPDATE snapshots SET sequence = 9", "a: the snapshot of 10 is not there."},
                     PlantedFault{"UPDATE edits SET edit = x'00' WHERE sequence = 11",
                                  "a: has another size than the 12007 bytes that were counted."},
+                    PlantedFault{"UPDATE edits SET at = at + 1 WHERE sequence = 11",
+                                 "a: the edit 11 is not what was written: the store is damaged. Restore a "
+                                 "backup."},
+                    PlantedFault{"UPDATE edits SET edit = zeroblob(300)", "25 more are damaged."},
+                    PlantedFault{
+                        "UPDATE snapshots SET bytes = CAST('a w0rld' AS BLOB)",
+                        "a: the snapshot of 10 is not what was written: the store is damaged. Restore "
+                        "a backup."},
                     PlantedFault{"UPDATE authors SET last_number = 49",
                                  "a: an edit of author 1 is newer than what was noted for that author."},
-                    PlantedFault{"INSERT INTO edits VALUES (7, 1, 1, 1, 1, x'00')",
+                    PlantedFault{"INSERT INTO edits VALUES (7, 1, 1, 1, 1, x'00', NULL)",
                                  "1 rows belong to no design."}));
 
 TEST_F(StoreCareTest, FindsEveryPageThatIsOverwritten) {
@@ -103,6 +111,39 @@ TEST_F(StoreCareTest, FindsEveryPageThatIsOverwritten) {
     EXPECT_TRUE(!findings || !findings->empty()) << "page " << page;
     folder_.write("designs.sqlite", whole);
   }
+}
+
+TEST_F(StoreCareTest, FindsEveryBitThatTurnsOverInAnEdit) {
+  make();
+  const std::string whole = bytes_in(path_);
+  const std::string edit = sample_edit(30, 300);
+  const std::size_t place = whole.find(edit);
+  ASSERT_NE(place, std::string::npos);
+  for (std::size_t bit = 0; bit < 8 * edit.size(); bit += 7) {
+    std::string wrong = whole;
+    wrong[place + bit / 8] = char(wrong[place + bit / 8] ^ (1 << (bit % 8)));
+    folder_.write("designs.sqlite", wrong);
+    EXPECT_EQ(good(check_store(path_)).size(), 1U) << "bit " << bit;
+  }
+  SqliteOpLog log = good(SqliteOpLog::open(path_));
+  EXPECT_EQ(sentence_of(log.read_from("a", 5, 100'000)),
+            "a: the edit 30 is not what was written: the store is damaged. Restore a backup.");
+}
+
+TEST_F(StoreCareTest, TakesAStoreFromBeforeThereWereSums) {
+  make();
+  change("ALTER TABLE edits DROP COLUMN sum; ALTER TABLE snapshots DROP COLUMN sum; PRAGMA user_version = 1");
+  EXPECT_EQ(good(check_store(path_)), std::vector<std::string>{});
+  good(backup_store(path_, backup_, false));
+  good(restore_store(backup_, path_));
+  SqliteOpLog log = good(SqliteOpLog::open(path_));
+  EXPECT_EQ(good(log.read_from("a", 5, 100'000)), sample_entries(5, 45, 300));
+  EXPECT_EQ(good(log.snapshot("a")).value().bytes, "a world");
+  const std::uint64_t fence = good(log.lease("a", "server", 60'000)).fence;
+  ASSERT_FALSE(append_to(log, "a", 50, fence, sample_entries(50, 1, 300)));
+  EXPECT_EQ(good(check_store(path_)), std::vector<std::string>{});
+  change("UPDATE edits SET at = at + 1 WHERE sequence > 49");
+  EXPECT_EQ(good(check_store(path_)).size(), 1U) << "only what came later has a sum";
 }
 
 TEST_F(StoreCareTest, FindsAFileThatIsCutShort) {
