@@ -26,7 +26,7 @@ class EditSource {
       const std::string name = fmt::format("design {}", i);
       demand(log.create(name));
       const std::uint64_t fence = demand(log.lease(name, "bench", 3'600'000)).fence;
-      demand(log.author(name, "bench"));
+      demand(log.author(name, "bench", "Ann"));
       next_.push_back({.design = name, .expected_sequence = 0, .fence = fence});
     }
   }

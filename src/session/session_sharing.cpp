@@ -388,8 +388,8 @@ std::vector<SessionSharing::Conflict> SessionSharing::conflicts() const {
   for (const collab::Conflict& it : talk.conflicts()) {
     const bool is_object = it.item.kind == collab::ItemKind::Object;
     const world::World& named = collab::is_there(made, it.item) ? made : parts_.world;
-    result.push_back(
-        {collab::called(named, it.item), is_object ? ObjectId{it.item.id} : ObjectId{}, it.is_gone});
+    result.push_back({collab::called(named, it.item), is_object ? ObjectId{it.item.id} : ObjectId{},
+                      it.is_gone, it.whose == 0 ? std::string() : talk.name_of(it.whose)});
   }
   return result;
 }

@@ -59,6 +59,7 @@ class SessionSharing {
     std::string what = {};        // for people: "leg", "a shape"
     world::ObjectId object = {};  // none: it is no object
     bool is_gone = false;         // others have deleted it: one's own version can only be kept as a copy
+    std::string whose = {};       // the person who changed it last; empty: it is not known who
   };
   /// Until they are chosen for, nothing of what was done here is sent.
   std::vector<Conflict> conflicts() const;

@@ -105,6 +105,7 @@ class DesktopSharingTest(DesktopTest):
         third = self.leg_bounds()
         refused = self.kept(self.link)
         self.assertEqual(refused.returncode, 1, "there is something to choose")
+        self.assertRegex(refused.stderr, r"by others \(\"leg\", by \w+\)")
         self.assertIn("nothing was sent", refused.stderr)
         self.assertEqual(self.leg_bounds(), third)
         self.assertEqual(self.unsent(), [1], "it is not lost either")

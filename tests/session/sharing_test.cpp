@@ -235,6 +235,7 @@ TEST_F(Sharing, LetsOneChooseWhereOthersChangedTheSameWhileThereWasNoConnection)
   ASSERT_EQ(conflicts.size(), 3U);
   EXPECT_EQ(conflicts[0].what, "\"leg\"");
   EXPECT_TRUE(conflicts[2].is_gone);
+  for (const auto& it : conflicts) EXPECT_EQ(it.whose, "Bob");
   EXPECT_FALSE(ann_->sharing().resolve({collab::Choice::Mine}));
   ASSERT_TRUE(ann_->sharing().resolve({collab::Choice::Mine, collab::Choice::Both, collab::Choice::Both}));
   until_same();

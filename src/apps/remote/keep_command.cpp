@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "apps/interrupt.h"
 #include "apps/remote/remote_design.h"
@@ -89,16 +91,32 @@ std::optional<collab::KeptCopy> former_copy(const collab::KeptDesign& kept) {
   return std::nullopt;
 }
 
+/// "leg, by Ann; arm, by Bob": some of the things that were changed both here and by others.
+std::string conflicts_text(const collab::Conversation& talk) {
+  constexpr std::size_t kMostTold = 5;
+  const world::World made = talk.world_as_made_here();
+  std::string text;
+  for (const collab::Conflict& it :
+       std::span(talk.conflicts()).first(std::min(kMostTold, talk.conflicts().size()))) {
+    const world::World& named = collab::is_there(made, it.item) ? made : talk.replica().world();
+    const std::string whose = it.whose == 0 ? "others" : talk.name_of(it.whose);
+    text += fmt::format("{}{}, by {}", text.empty() ? "" : "; ", collab::called(named, it.item), whose);
+  }
+  const std::size_t more = talk.conflicts().size() - std::min(kMostTold, talk.conflicts().size());
+  return more == 0 ? text : text + fmt::format("; and {} more", more);
+}
+
 /// Sends what was done without the server, and tells what became of it.
 base::Result<void> send_former(collab::Connection& connection, const collab::KeptCopy& former,
                                StatusLine& status) {
-  if (const std::size_t count = connection.talk().conflicts().size(); count > 0) {
+  if (!connection.talk().conflicts().empty()) {
+    const std::string things = conflicts_text(connection.talk());
     leave_design(connection);
-    return base::fail(fmt::format(
-        "{}: {} both here, without the server, and by others. Open it in the window (icome LINK) to choose; "
-        "nothing was sent.",
-        collab::shown_address(connection.talk().address()),
-        count == 1 ? "one thing was changed" : fmt::format("{} things were changed", count)));
+    return base::fail(
+        fmt::format("{}: some things were changed both here, without the server, and by others ({}). Open it "
+                    "in the window "
+                    "(icome LINK) to choose; nothing was sent.",
+                    collab::shown_address(connection.talk().address()), things));
   }
   if (const auto sent = wait_until_durable(connection, status); !sent) return sent;
   for (const collab::Seen& it : connection.talk().take_seen())

@@ -319,6 +319,7 @@ void Conversation::find_conflicts() {
   if (!before_) return;
   made_here_ = replica_.pending_edits();
   conflicts_ = conflicts_of(made_here_, *before_, replica_.world_of_server());
+  for (Conflict& it : conflicts_) it.whose = replica_.last_other(it.item);
   if (conflicts_.empty()) before_.reset();
 }
 
@@ -412,10 +413,12 @@ void Conversation::ask_again() {
 
 void Conversation::hear(People& message) {
   for (const Person& person : message.people) {
+    const auto known = people_.find(person.author);
+    const bool was_here = known != people_.end() && known->second.here;
     people_[person.author] = person;
     if (!person.here) sightings_.erase(person.author);
     if (person.author == replica_.author()) role_ = person.role;
-    seen_.emplace_back(person);
+    if (person.here || was_here) seen_.emplace_back(person);
     if (!person.here && person.author >= kFirstGuest) people_.erase(person.author);  // who never comes again
   }
 }

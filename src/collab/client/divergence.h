@@ -9,7 +9,8 @@ namespace icome::collab {
 /// A thing that was changed both here, while there was no connection, and by others meanwhile.
 struct Conflict {
   Item item;
-  bool is_gone = false;  // others have deleted it
+  bool is_gone = false;     // others have deleted it
+  std::uint32_t whose = 0;  // the author who changed it last; 0: nobody is known
 };
 
 /// A person's wish for a thing in conflict.
@@ -20,7 +21,8 @@ enum class Choice : std::uint8_t {
 };
 
 /// The things that own edits, made on `before`, and others' edits, which led from `before` to `now`, both
-/// changed: the same side of a thing, or one of them its existence. In the order of the own edits.
+/// changed, but not by whom: the same side of a thing, or one of them its existence. In the order of the own
+/// edits.
 std::vector<Conflict> conflicts_of(std::span<const world::Edit> own, const world::World& before,
                                    const world::World& now);
 

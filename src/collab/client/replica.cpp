@@ -421,6 +421,13 @@ void Replica::note_others(const world::Edit& edit, std::uint64_t sequence, std::
   for (const Touched& it : touched_by(edit)) others_[it.item][it.aspect] = {sequence, author};
 }
 
+std::uint32_t Replica::last_other(Item item) const {
+  const auto found = others_.find(item);
+  if (found == others_.end()) return 0;
+  return std::ranges::max_element(found->second, {}, [](const auto& it) { return it.second.sequence; })
+      ->second.author;
+}
+
 /// The last edit of another behind `since` that gets in the way of taking something back by `edit`.
 std::optional<Replica::Touch> Replica::later_touch(const world::Edit& edit, std::uint64_t since) const {
   for (const Touched& mine : touched_by(edit)) {

@@ -102,6 +102,9 @@ class Replica {
   world::World world_of_server();
   /// The own edits that the server has not ordered, in order.
   std::vector<world::Edit> pending_edits() const;
+  /// The author of the last edit of another that changed this thing, of those that were heard since the world
+  /// began; 0: none.
+  std::uint32_t last_other(Item item) const;
   /// Gives up those that change this thing.
   base::Result<void> give_up(Item item);
   /// All own actions behind the first `count` are one from now on, to be taken back at once.

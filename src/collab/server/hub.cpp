@@ -222,7 +222,8 @@ void Hub::ask_to_join(const OpenDesignPointer& design, const Joining& joining) {
   // Who only reads leaves nothing in the store.
   if (joining.hello.only_reads) return join(design, joining, {next_guest_++, 0});
   work_.push_back({[this, design, joining](OpLog& log) {
-    const auto author = log.author(design->name, joining.hello.client_key);
+    const auto author =
+        log.author(design->name, joining.hello.client_key, plain_line(joining.hello.name, kMostPersonBytes));
     return [this, design, joining, author] {
       if (author) return join(design, joining, *author);
       if (const auto found = links_.find(joining.link); found != links_.end())

@@ -18,7 +18,6 @@ namespace {
 
 constexpr unsigned kFenceShift = 32;  // fences of holds count up from the server's own lease, shifted by this
 
-constexpr std::size_t kMostPersonBytes = 100;
 /// Colours of people, which can be told apart, and from the orange of what is selected, on light and dark
 /// grounds.
 constexpr std::array<std::uint32_t, 8> kColours{0x0072b2, 0x009e73, 0xcc79a7, 0x56b4e9,
@@ -35,7 +34,10 @@ base::Result<RoomStart> read_start(OpLog& log, const DesignRow& design, std::uin
   constexpr std::uint64_t kReadAtOnce = 16U << 20U;  // bytes
   auto snapshot = log.snapshot(design.name);
   if (!snapshot) return tl::unexpected(snapshot.error());
-  RoomStart start{design.name, fence, design.history, std::move(*snapshot), {}};
+  RoomStart start{design.name, fence, design.history, std::move(*snapshot), {}, {}};
+  auto names = log.author_names(design.name);
+  if (!names) return tl::unexpected(names.error());
+  start.names = std::move(*names);
   std::uint64_t after = design.kept_after;
   while (true) {
     auto entries = log.read_from(design.name, after, kReadAtOnce);
@@ -85,6 +87,9 @@ base::Result<void> Room::replay(const RoomStart& start) {
   }
   if (sequence_ < in_snapshot) return base::fail(fmt::format("edit {} is missing.", sequence_ + 1));
   durable_ = sequence_;
+  for (auto& [number, author] : authors_)
+    if (const auto named = start.names.find(number); named != start.names.end())
+      author.person = {number, named->second, 0, Role::View, false};
   return {};
 }
 
@@ -116,7 +121,7 @@ void Room::join(LinkId link, const Arrival& arrival, std::int64_t now) {
 
   People everybody;
   for (const auto& [number, other] : authors_)
-    if (other.person.here) everybody.people.push_back(other.person);
+    if (other.person.here || other.is_remembered()) everybody.people.push_back(other.person);
   tell(member, everybody);
   FloorState state;
   for (const auto& [item, hold] : floor_.holds()) state.holds.push_back({item, hold.holder, hold.fence, 0});

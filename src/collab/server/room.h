@@ -18,6 +18,8 @@
 
 namespace icome::collab {
 
+constexpr std::size_t kMostPersonBytes = 100;  // of a person's name
+
 /// Limits and times of a room.
 struct RoomSettings {
   std::int64_t lease = 8'000;      // ms without a word after which holds are lost
@@ -44,6 +46,7 @@ struct RoomStart {
   std::uint64_t history = 0;              // DesignRow::history
   std::optional<Snapshot> snapshot = {};  // world_to_bytes; nothing: the design began empty
   std::vector<LogEntry> entries = {};  // all that are kept: some before the snapshot, for those who come back
+  AuthorNames names = {};
 };
 
 /// Reads what a room is made of; `fence` is that of the reader's lease.
@@ -157,6 +160,9 @@ class Room {
     Person person = {.here = false};
     SharedBytes presence;
     std::uint64_t presence_version = 0;
+
+    /// Do others ask who it was, now that the person has gone?
+    bool is_remembered() const { return !accepted.empty() && !person.name.empty(); }
   };
   struct Change {
     std::uint64_t sequence = 0;

@@ -98,12 +98,20 @@ base::Result<void> MemoryOpLog::save_snapshot(const std::string& design, std::ui
   return {};
 }
 
-base::Result<AuthorRow> MemoryOpLog::author(const std::string& design, const std::string& key) {
+base::Result<AuthorRow> MemoryOpLog::author(const std::string& design, const std::string& key,
+                                            const std::string& name) {
   Design* const found = design_of(design);
   if (!found) return tl::unexpected(no_such_design(design));
   const auto [it, is_new] = found->authors.try_emplace(key, std::uint32_t(found->authors.size() + 1));
   if (is_new) found->last_numbers.push_back(0);
+  if (!name.empty()) found->names[it->second] = name;
   return AuthorRow{it->second, found->last_numbers[it->second - 1]};
+}
+
+base::Result<AuthorNames> MemoryOpLog::author_names(const std::string& design) {
+  const Design* const found = design_of(design);
+  if (!found) return tl::unexpected(no_such_design(design));
+  return found->names;
 }
 
 base::Result<void> MemoryOpLog::revoke(const std::string& invitation) {

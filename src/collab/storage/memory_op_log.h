@@ -31,7 +31,9 @@ class MemoryOpLog : public OpLog {
   base::Result<std::optional<Snapshot>> snapshot(const std::string& design) override;
   base::Result<void> save_snapshot(const std::string& design, std::uint64_t fence, const Snapshot& snapshot,
                                    std::uint64_t keep_after) override;
-  base::Result<AuthorRow> author(const std::string& design, const std::string& key) override;
+  base::Result<AuthorRow> author(const std::string& design, const std::string& key,
+                                 const std::string& name) override;
+  base::Result<AuthorNames> author_names(const std::string& design) override;
   base::Result<void> revoke(const std::string& invitation) override;
   base::Result<std::vector<std::string>> revoked() override;
   base::Result<std::uint64_t> revoked_version() override;
@@ -42,7 +44,8 @@ class MemoryOpLog : public OpLog {
     std::deque<LogEntry> edits = {};  // behind state.kept_after
     std::optional<Snapshot> snapshot = {};
     std::map<std::string, std::uint32_t> authors = {};  // by key
-    std::vector<std::uint64_t> last_numbers = {};       // of author i + 1
+    AuthorNames names = {};
+    std::vector<std::uint64_t> last_numbers = {};  // of author i + 1
   };
 
   /// Null where there is no such design.

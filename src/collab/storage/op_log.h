@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -60,6 +61,8 @@ struct AuthorRow {
   std::uint64_t last_number = 0;  // of the author's last edit in the log; 0: none
 };
 
+using AuthorNames = std::map<std::uint32_t, std::string>;
+
 /// The reason why a batch was not appended. Malformed: its sequences have gaps, or something in it is larger
 /// than a log takes. Store: the disk or the database failed, and none of the batches of the call is there;
 /// where the connection to a database was lost during the commit, all of them may be.
@@ -111,8 +114,12 @@ class OpLog {
   virtual base::Result<void> save_snapshot(const std::string& design, std::uint64_t fence,
                                            const Snapshot& snapshot, std::uint64_t keep_after) = 0;
 
-  /// The author of a design with this key (any bytes), a new one where there is none.
-  virtual base::Result<AuthorRow> author(const std::string& design, const std::string& key) = 0;
+  /// The author of a design with this key (any bytes), a new one where there is none. Notes by which name
+  /// (UTF-8 without NUL) the person goes now; an empty one changes nothing.
+  virtual base::Result<AuthorRow> author(const std::string& design, const std::string& key,
+                                         const std::string& name) = 0;
+  /// The names that were noted last, by author; who never had one is not among them.
+  virtual base::Result<AuthorNames> author_names(const std::string& design) = 0;
 
   /// Ends an invitation, by its id, for ever. Nothing happens where that was done before.
   virtual base::Result<void> revoke(const std::string& invitation) = 0;

@@ -95,6 +95,10 @@ constexpr PostgresStatement kCountAuthors{
     "$3::bigint[]) AS now (design, author, number) WHERE author.design = now.design AND author.author = "
     "now.author "
     "AND author.last_number < now.number"};
+constexpr PostgresStatement kNameAuthor{
+    "name_author", "UPDATE icome.authors SET name = $3 WHERE design = $1 AND author = $2 AND name <> $3"};
+constexpr PostgresStatement kAllNames{
+    "all_names", "SELECT author, name FROM icome.authors WHERE design = $1 AND name <> ''"};
 // One revokes at a time: who saw a number has seen all below it.
 constexpr PostgresStatement kLockRevoked{"lock_revoked", "LOCK TABLE icome.revoked IN EXCLUSIVE MODE"};
 constexpr PostgresStatement kInsertRevoked{"insert_revoked",
@@ -114,10 +118,11 @@ constexpr PostgresStatement kWriteNote{
 constexpr PostgresStatement kReadNote{"read_note", "SELECT bytes FROM icome.notes WHERE name = $1"};
 
 constexpr PostgresStatement kAll[] = {
-    kAllDesigns,  kFindDesign, kLockDesign,   kLockDesigns,  kInsertDesign, kUpdateLease,   kUpdateSequences,
-    kInsertEdits, kReadEdits,  kBytesBehind,  kForgetEdits,  kReadSnapshot, kWriteSnapshot, kUpdateSnapshot,
-    kTakeTime,    kFindAuthor, kInsertAuthor, kCountAuthors, kLockRevoked,  kInsertRevoked, kAllRevoked,
-    kLastRevoked, kInsertNote, kWriteNote,    kReadNote};
+    kAllDesigns,      kFindDesign,     kLockDesign,  kLockDesigns,   kInsertDesign, kUpdateLease,
+    kUpdateSequences, kInsertEdits,    kReadEdits,   kBytesBehind,   kForgetEdits,  kReadSnapshot,
+    kWriteSnapshot,   kUpdateSnapshot, kTakeTime,    kFindAuthor,    kInsertAuthor, kCountAuthors,
+    kNameAuthor,      kAllNames,       kLockRevoked, kInsertRevoked, kAllRevoked,   kLastRevoked,
+    kInsertNote,      kWriteNote,      kReadNote};
 
 }  // namespace statements
 
@@ -488,14 +493,30 @@ base::Result<void> PostgresOpLog::save_snapshot(const std::string& design, std::
   });
 }
 
-base::Result<AuthorRow> PostgresOpLog::author(const std::string& design, const std::string& key) {
+base::Result<AuthorRow> PostgresOpLog::author(const std::string& design, const std::string& key,
+                                              const std::string& name) {
   return parts_->connection.transact(kBeginChange, [&]() -> base::Result<AuthorRow> {
     const auto found = parts_->lock(design);
     if (!found) return tl::unexpected(found.error());
     auto rows = parts_->connection.run(statements::kFindAuthor, found->id, key);
     if (rows && rows->count() == 0) rows = parts_->connection.run(statements::kInsertAuthor, found->id, key);
     if (!rows) return tl::unexpected(rows.error());
-    return AuthorRow{std::uint32_t(rows->natural(0, 0)), rows->natural(0, 1)};
+    const AuthorRow author{std::uint32_t(rows->natural(0, 0)), rows->natural(0, 1)};
+    if (!name.empty())
+      parts_->connection.queue(statements::kNameAuthor, found->id, std::int64_t{author.author}, name);
+    return author;
+  });
+}
+
+base::Result<AuthorNames> PostgresOpLog::author_names(const std::string& design) {
+  return parts_->connection.transact(kBeginLook, [&]() -> base::Result<AuthorNames> {
+    const auto found = parts_->demand(design);
+    if (!found) return tl::unexpected(found.error());
+    const auto rows = parts_->connection.run(statements::kAllNames, found->id);
+    if (!rows) return tl::unexpected(rows.error());
+    AuthorNames names;
+    for (int i = 0; i < rows->count(); ++i) names[std::uint32_t(rows->natural(i, 0))] = rows->bytes(i, 1);
+    return names;
   });
 }
 

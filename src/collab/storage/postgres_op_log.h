@@ -35,7 +35,9 @@ class PostgresOpLog final : public OpLog {
   base::Result<std::optional<Snapshot>> snapshot(const std::string& design) override;
   base::Result<void> save_snapshot(const std::string& design, std::uint64_t fence, const Snapshot& snapshot,
                                    std::uint64_t keep_after) override;
-  base::Result<AuthorRow> author(const std::string& design, const std::string& key) override;
+  base::Result<AuthorRow> author(const std::string& design, const std::string& key,
+                                 const std::string& name) override;
+  base::Result<AuthorNames> author_names(const std::string& design) override;
   base::Result<void> revoke(const std::string& invitation) override;
   base::Result<std::vector<std::string>> revoked() override;
   base::Result<std::uint64_t> revoked_version() override;

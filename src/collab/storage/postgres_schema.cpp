@@ -50,6 +50,7 @@ constexpr const char* kMakeSchemaTables[] = {
       author bigint NOT NULL,
       key bytea NOT NULL,
       last_number bigint NOT NULL DEFAULT 0,
+      name text COLLATE "C" NOT NULL DEFAULT '',
       PRIMARY KEY (design, author)
     ) WITH (fillfactor = 50))",
     "CREATE UNIQUE INDEX authors_by_key ON icome.authors (design, sha256(key))",
@@ -67,10 +68,12 @@ constexpr const char* kMakeSchemaTables[] = {
     "CREATE TABLE icome.store (version bigint NOT NULL)",
 };
 
-// Version 1 had no sums. A server of that version that is connected goes on, and writes rows without them.
-constexpr const char* kAddSumColumns[] = {"ALTER TABLE icome.edits ADD COLUMN sum bigint",
-                                          "ALTER TABLE icome.snapshots ADD COLUMN sum bigint",
-                                          "UPDATE icome.store SET version = 2"};
+// Version 1 had no sums, and no names of authors. A server of that version that is connected goes on, and
+// writes rows without them.
+constexpr const char* kToVersion2[] = {
+    "ALTER TABLE icome.edits ADD COLUMN sum bigint", "ALTER TABLE icome.snapshots ADD COLUMN sum bigint",
+    "ALTER TABLE icome.authors ADD COLUMN name text COLLATE \"C\" NOT NULL DEFAULT ''",
+    "UPDATE icome.store SET version = 2"};
 
 base::Result<bool> is_there(PostgresConnection& connection, const char* sql) {
   const auto rows = connection.execute(sql);
@@ -140,7 +143,7 @@ base::Result<void> make_postgres_store(PostgresConnection& connection) {
     if (!*now) return make_schema(connection);
     if (const auto good = judge_schema(**now, connection.place()); !good) return good;
     const bool is_old = **now < kSchemaVersion;  // else another server was faster
-    return is_old ? execute_all(connection, kAddSumColumns) : base::Result<void>();
+    return is_old ? execute_all(connection, kToVersion2) : base::Result<void>();
   });
 }
 

@@ -65,12 +65,14 @@ struct SqliteOpLog::Parts {
   SqliteStatement all_designs = {}, find_design = {}, insert_design = {}, update_design = {};
   SqliteStatement insert_edit = {}, read_edits = {}, bytes_behind = {}, forget_edits = {};
   SqliteStatement read_snapshot = {}, write_snapshot = {};
-  SqliteStatement find_author = {}, insert_author = {}, count_author = {};
+  SqliteStatement find_author = {}, insert_author = {}, count_author = {}, name_author = {}, all_names = {};
   SqliteStatement insert_revoked = {}, all_revoked = {}, last_revoked = {};
 
   base::Result<void> prepare();
   base::Result<std::optional<StoredDesign>> find(const std::string& name);
   base::Result<StoredDesign> demand(const std::string& name);
+  /// Finds or makes the author with this key.
+  base::Result<AuthorRow> author(std::int64_t design, const std::string& key);
   base::Result<void> update(const StoredDesign& design);
 
   base::Result<std::optional<AppendError>> append(const Append& append, AppendChanges& changes);
@@ -102,6 +104,8 @@ base::Result<void> SqliteOpLog::Parts::prepare() {
        "authors WHERE design = ?1), ?2) RETURNING author, last_number"},
       {&count_author,
        "UPDATE authors SET last_number = max(last_number, ?3) WHERE design = ?1 AND author = ?2"},
+      {&name_author, "UPDATE authors SET name = ?3 WHERE design = ?1 AND author = ?2 AND name <> ?3"},
+      {&all_names, "SELECT author, name FROM authors WHERE design = ? AND name <> ''"},
       {&insert_revoked, "INSERT OR IGNORE INTO revoked (invitation) VALUES (?)"},
       {&all_revoked, "SELECT invitation FROM revoked ORDER BY number"},
       {&last_revoked, "SELECT coalesce(max(number), 0) FROM revoked"},
@@ -322,20 +326,42 @@ base::Result<void> SqliteOpLog::save_snapshot(const std::string& design, std::ui
   });
 }
 
-base::Result<AuthorRow> SqliteOpLog::author(const std::string& design, const std::string& key) {
+base::Result<AuthorRow> SqliteOpLog::Parts::author(std::int64_t design, const std::string& key) {
+  for (SqliteStatement* const statement : {&find_author, &insert_author}) {
+    SqliteRun run = statement->run(design, SqliteBlob{key});
+    const auto row = run.next();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) continue;
+    const AuthorRow author{std::uint32_t(run.natural(0)), run.natural(1)};
+    if (const auto finished = run.finish(); !finished) return tl::unexpected(finished.error());
+    return author;
+  }
+  return tl::unexpected(sqlite_error(SQLITE_CORRUPT, database.path()));
+}
+
+base::Result<AuthorRow> SqliteOpLog::author(const std::string& design, const std::string& key,
+                                            const std::string& name) {
   return parts_->database.transact(kChange, [&]() -> base::Result<AuthorRow> {
     const auto found = parts_->demand(design);
     if (!found) return tl::unexpected(found.error());
-    for (SqliteStatement* const statement : {&parts_->find_author, &parts_->insert_author}) {
-      SqliteRun run = statement->run(found->id, SqliteBlob{key});
-      const auto row = run.next();
-      if (!row) return tl::unexpected(row.error());
-      if (!*row) continue;
-      const AuthorRow author{std::uint32_t(run.natural(0)), run.natural(1)};
-      if (const auto finished = run.finish(); !finished) return tl::unexpected(finished.error());
-      return author;
-    }
-    return tl::unexpected(sqlite_error(SQLITE_CORRUPT, parts_->database.path()));
+    auto author = parts_->author(found->id, key);
+    if (!author || name.empty()) return author;
+    const auto named = parts_->name_author.run(found->id, author->author, name).finish();
+    if (!named) return tl::unexpected(named.error());
+    return author;
+  });
+}
+
+base::Result<AuthorNames> SqliteOpLog::author_names(const std::string& design) {
+  return parts_->database.transact(kLook, [&]() -> base::Result<AuthorNames> {
+    const auto found = parts_->demand(design);
+    if (!found) return tl::unexpected(found.error());
+    AuthorNames names;
+    SqliteRun run = parts_->all_names.run(found->id);
+    auto more = run.next();
+    for (; more && *more; more = run.next()) names[std::uint32_t(run.natural(0))] = run.bytes(1);
+    if (!more) return tl::unexpected(more.error());
+    return names;
   });
 }
 

@@ -49,6 +49,7 @@ CREATE TABLE authors (
   author INTEGER NOT NULL,
   key BLOB NOT NULL,
   last_number INTEGER NOT NULL DEFAULT 0,
+  name TEXT NOT NULL DEFAULT '',
   PRIMARY KEY (design, author),
   UNIQUE (design, key)
 ) STRICT, WITHOUT ROWID;
@@ -58,10 +59,11 @@ CREATE TABLE revoked (
 ) STRICT;
 )";
 
-// Version 1 had no sums: its edits and snapshots are believed as they are.
-constexpr const char* kAddSums = R"(
+// Version 1 had no sums, so that its edits and snapshots are believed as they are, and no names of authors.
+constexpr const char* kToVersion2 = R"(
 ALTER TABLE edits ADD COLUMN sum INTEGER;
 ALTER TABLE snapshots ADD COLUMN sum INTEGER;
+ALTER TABLE authors ADD COLUMN name TEXT NOT NULL DEFAULT '';
 PRAGMA user_version = 2;
 )";
 
@@ -105,11 +107,12 @@ base::Result<void> make_tables(const SqliteDatabase& database) {
   });
 }
 
-base::Result<void> add_sums(const SqliteDatabase& database) {
+base::Result<void> bring_up_to_date(const SqliteDatabase& database) {
   return database.transact("BEGIN IMMEDIATE", [&]() -> base::Result<void> {
     const auto has = has_sums(database);
     if (!has) return tl::unexpected(has.error());
-    return *has ? base::Result<void>() : database.execute(kAddSums);  // another process may have been faster
+    return *has ? base::Result<void>()
+                : database.execute(kToVersion2);  // another process may have been faster
   });
 }
 
@@ -157,7 +160,7 @@ base::Result<void> make_store(const SqliteDatabase& database) {
     if (const auto good = judge_marks(*marks, database); !good) return good;
   }
   if (const auto begun = begin_write_ahead(database); !begun) return begun;
-  return marks->is_empty() ? make_tables(database) : add_sums(database);
+  return marks->is_empty() ? make_tables(database) : bring_up_to_date(database);
 }
 
 }  // namespace icome::collab

@@ -36,7 +36,7 @@ constexpr StoreRule kStoreRules[] = {
      "design = id AND sequence > snapshot_sequence) + (SELECT coalesce(sum(length(snapshots.bytes)), 0) FROM "
      "snapshots WHERE design = id)",
      "{}: has another size than the {} bytes that were counted."},
-    {"SELECT name, author FROM authors JOIN designs ON id = design WHERE last_number < (SELECT "
+    {"SELECT designs.name, author FROM authors JOIN designs ON id = design WHERE last_number < (SELECT "
      "coalesce(max(number), 0) FROM edits WHERE edits.design = authors.design AND edits.author = "
      "authors.author)",
      "{}: an edit of author {} is newer than what was noted for that author."},

@@ -33,6 +33,12 @@ void add_choices(QComboBox& box, const SessionSharing::Conflict& conflict) {
                 int(Choice::Both));
 }
 
+/// "Changed by Ann", or nothing where it is not known by whom.
+QString others_part(const SessionSharing::Conflict& conflict) {
+  if (conflict.whose.empty()) return {};
+  return (conflict.is_gone ? "deleted by " : "changed by ") + shortened(one_line(conflict.whose));
+}
+
 }  // namespace
 
 ConflictDialog::ConflictDialog(session::Session& session,
@@ -45,7 +51,7 @@ ConflictDialog::ConflictDialog(session::Session& session,
   rows->addWidget(new WrappedLabel(kWords, this));
   auto* sheet = new QWidget(this);
   auto* grid = new QGridLayout(sheet);
-  grid->setColumnStretch(1, 1);
+  grid->setColumnStretch(2, 1);
   for (const SessionSharing::Conflict& it : session.sharing().conflicts()) {
     auto* name = new QLabel(tip_of(shortened(one_line(it.what))), sheet);
     auto* box = new QComboBox(sheet);
@@ -54,7 +60,8 @@ ConflictDialog::ConflictDialog(session::Session& session,
     name->setBuddy(box);
     const int row = int(choices_.size());
     grid->addWidget(name, row, 0);
-    grid->addWidget(box, row, 1);
+    grid->addWidget(new QLabel(tip_of(others_part(it)), sheet), row, 1);
+    grid->addWidget(box, row, 2);
     choices_.push_back(box);
   }
   grid->setRowStretch(int(choices_.size()), 1);

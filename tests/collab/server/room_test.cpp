@@ -209,6 +209,23 @@ TEST_F(RoomTest, KnowsNobodyWhoOnlyStandsInTheLog) {
     for (const Person& person : people.people) EXPECT_EQ(person.author, 9U);
 }
 
+TEST_F(RoomTest, NamesThoseWhoHaveGoneAndWhoseEditsAreKept) {
+  const std::string move = world::to_bytes(world::PlaceObject{ObjectId{1}, world::at(1, 0, 0)}).value();
+  RoomStart start;
+  start.entries = {{2, 7, 1, 0, move}};
+  start.names = {{7, "Cid"}, {8, "Dan"}};
+  open(start);
+  join(1, 1, Role::Edit, "Ann");
+  submit(1, 1, world::PlaceObject{table_, world::at(2, 0, 0)});
+  room_->leave(1);
+  room_->join(2, {.author = 2, .role = Role::Edit, .name = "Bob"}, now_);
+  const std::vector<People> people = heard_of<People>(2);
+  ASSERT_EQ(people.size(), 1U);
+  std::map<std::string, bool> here;
+  for (const Person& it : people[0].people) here[it.name] = it.here;
+  EXPECT_EQ(here, (std::map<std::string, bool>{{"Ann", false}, {"Bob", true}, {"Cid", false}}));
+}
+
 TEST_F(RoomTest, RefusesAnEditOfAHoldThatHasEnded) {
   join(1, 1, Role::Edit, "Ann");
   join(2, 2, Role::Edit, "Bob");

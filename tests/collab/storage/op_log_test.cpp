@@ -262,14 +262,28 @@ TYPED_TEST(OpLogTest, SavesNoSnapshotThatFitsNoEdit) {
   EXPECT_FALSE(this->log().snapshot("b"));
 }
 
+TYPED_TEST(OpLogTest, KnowsTheLastNameOfAnAuthor) {
+  this->made("a");
+  this->made("b");
+  EXPECT_EQ(good(this->log().author("a", "key", "Ann")).author, 1U);
+  EXPECT_EQ(good(this->log().author("a", "other", "Bob")).author, 2U);
+  EXPECT_EQ(good(this->log().author("a", "third", "")).author, 3U);
+  EXPECT_EQ(good(this->log().author_names("a")), (AuthorNames{{1, "Ann"}, {2, "Bob"}}));
+  EXPECT_EQ(good(this->log().author("a", "key", "Anna \u00c4")).author, 1U);
+  EXPECT_EQ(good(this->log().author("a", "other", "")).author, 2U);
+  EXPECT_EQ(good(this->log().author_names("a")), (AuthorNames{{1, "Anna \u00c4"}, {2, "Bob"}}));
+  EXPECT_TRUE(good(this->log().author_names("b")).empty());
+  EXPECT_FALSE(this->log().author_names("c"));
+}
+
 TYPED_TEST(OpLogTest, NumbersAuthorsByDesign) {
   const std::uint64_t fence = this->made("a");
   this->made("b");
   const std::string key("key\0\xff", 5);
-  EXPECT_EQ(good(this->log().author("a", key)).author, 1U);
-  EXPECT_EQ(good(this->log().author("a", "other")).author, 2U);
-  EXPECT_EQ(good(this->log().author("b", "other")).author, 1U);
-  EXPECT_EQ(good(this->log().author("a", key)).last_number, 0U);
+  EXPECT_EQ(good(this->log().author("a", key, "Ann")).author, 1U);
+  EXPECT_EQ(good(this->log().author("a", "other", "Ann")).author, 2U);
+  EXPECT_EQ(good(this->log().author("b", "other", "Ann")).author, 1U);
+  EXPECT_EQ(good(this->log().author("a", key, "Ann")).last_number, 0U);
   ASSERT_FALSE(append_to(this->log(), "a", 0, fence,
                          {{.sequence = 1, .author = 1, .number = 41},
                           {.sequence = 2, .author = 2, .number = 3},
@@ -277,10 +291,10 @@ TYPED_TEST(OpLogTest, NumbersAuthorsByDesign) {
                           {.sequence = 4, .author = 1, .number = 0},
                           {.sequence = 5, .author = 9, .number = 1}}));
   good(this->log().save_snapshot("a", fence, {5, "x"}, 5));
-  EXPECT_EQ(good(this->log().author("a", key)).last_number, 42U) << "forgotten edits count";
-  EXPECT_EQ(good(this->log().author("a", "other")).last_number, 3U);
-  EXPECT_EQ(good(this->log().author("b", "other")).last_number, 0U);
-  EXPECT_FALSE(this->log().author("c", key));
+  EXPECT_EQ(good(this->log().author("a", key, "Ann")).last_number, 42U) << "forgotten edits count";
+  EXPECT_EQ(good(this->log().author("a", "other", "Ann")).last_number, 3U);
+  EXPECT_EQ(good(this->log().author("b", "other", "Ann")).last_number, 0U);
+  EXPECT_FALSE(this->log().author("c", key, "Ann"));
 }
 
 TYPED_TEST(OpLogTest, RevokesForEver) {

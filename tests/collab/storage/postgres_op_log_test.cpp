@@ -60,7 +60,7 @@ TEST_F(PostgresOpLogTest, KeepsAllWhenItIsClosed) {
     PostgresOpLog log = opened();
     good(log.create("a"));
     fence = good(log.lease("a", "server", 60'000)).fence;
-    good(log.author("a", "key"));
+    good(log.author("a", "key", "Ann"));
     ASSERT_FALSE(append_to(log, "a", 0, fence, sample_entries(0, 5)));
     good(log.revoke("gone"));
     history = good(log.find("a")).value().history;
@@ -69,7 +69,7 @@ TEST_F(PostgresOpLogTest, KeepsAllWhenItIsClosed) {
   EXPECT_EQ(good(log.read_from("a", 0, 1000)), sample_entries(0, 5));
   EXPECT_EQ(good(log.find("a")).value().history, history);
   EXPECT_EQ(good(log.lease("a", "server", 60'000)).fence, fence);
-  EXPECT_EQ(good(log.author("a", "key")).author, 1U);
+  EXPECT_EQ(good(log.author("a", "key", "Ann")).author, 1U);
   EXPECT_EQ(good(log.revoked()), std::vector<std::string>{"gone"});
 }
 
@@ -296,9 +296,9 @@ TEST_F(PostgresOpLogTest, TakesLargeEditsAndLongKeys) {
   good(log.save_snapshot("a", fence, {5, world}, 5));
   EXPECT_EQ(good(log.snapshot("a")).value().bytes, world);
   const std::string key = sample_edit(2, 100'000);
-  EXPECT_EQ(good(log.author("a", key)).author, 1U);
-  EXPECT_EQ(good(log.author("a", key + "x")).author, 2U);
-  EXPECT_EQ(good(log.author("a", key)).author, 1U);
+  EXPECT_EQ(good(log.author("a", key, "Ann")).author, 1U);
+  EXPECT_EQ(good(log.author("a", key + "x", "Ann")).author, 2U);
+  EXPECT_EQ(good(log.author("a", key, "Ann")).author, 1U);
 }
 
 TEST_F(PostgresOpLogTest, ReadsMoreEditsThanOneStatementGives) {
@@ -347,6 +347,7 @@ TEST_F(PostgresOpLogTest, TakesAStoreFromBeforeThereWereSums) {
   good(before.save_snapshot("a", fence, {1, "a world"}, 0));
   meddle("ALTER TABLE icome.edits DROP COLUMN sum");
   meddle("ALTER TABLE icome.snapshots DROP COLUMN sum");
+  meddle("ALTER TABLE icome.authors DROP COLUMN name");
   meddle("UPDATE icome.store SET version = 1");
   PostgresOpLog log = opened();
   EXPECT_EQ(good(log.read_from("a", 0, 100'000)), sample_entries(0, 3));

@@ -49,7 +49,7 @@ TEST_F(SqliteOpLogTest, KeepsAllWhenItIsClosed) {
     SqliteOpLog log = opened();
     good(log.create("a"));
     fence = good(log.lease("a", "server", 60'000)).fence;
-    good(log.author("a", "key"));
+    good(log.author("a", "key", "Ann"));
     ASSERT_FALSE(append_to(log, "a", 0, fence, sample_entries(0, 5)));
     good(log.revoke("gone"));
     history = good(log.find("a")).value().history;
@@ -58,7 +58,7 @@ TEST_F(SqliteOpLogTest, KeepsAllWhenItIsClosed) {
   EXPECT_EQ(good(log.read_from("a", 0, 1000)), sample_entries(0, 5));
   EXPECT_EQ(good(log.find("a")).value().history, history);
   EXPECT_EQ(good(log.lease("a", "server", 60'000)).fence, fence);
-  EXPECT_EQ(good(log.author("a", "key")).author, 1U);
+  EXPECT_EQ(good(log.author("a", "key", "Ann")).author, 1U);
   EXPECT_EQ(good(log.revoked()), std::vector<std::string>{"gone"});
   EXPECT_TRUE(good(check_store(path_)).empty());
 }

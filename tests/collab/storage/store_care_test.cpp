@@ -21,7 +21,7 @@ class StoreCareTest : public testing::Test {
   void make(std::size_t edits = 50) const {
     SqliteOpLog log = good(SqliteOpLog::open(path_));
     for (const char* name : {"a", "b"}) good(log.create(name));
-    good(log.author("a", "key"));
+    good(log.author("a", "key", "Ann"));
     const std::uint64_t fence = good(log.lease("a", "server", 60'000)).fence;
     ASSERT_FALSE(append_to(log, "a", 0, fence, sample_entries(0, edits, 300)));
     good(log.save_snapshot("a", fence, {10, "a world"}, 5));
@@ -132,7 +132,9 @@ TEST_F(StoreCareTest, FindsEveryBitThatTurnsOverInAnEdit) {
 
 TEST_F(StoreCareTest, TakesAStoreFromBeforeThereWereSums) {
   make();
-  change("ALTER TABLE edits DROP COLUMN sum; ALTER TABLE snapshots DROP COLUMN sum; PRAGMA user_version = 1");
+  change(
+      "ALTER TABLE edits DROP COLUMN sum; ALTER TABLE snapshots DROP COLUMN sum; "
+      "ALTER TABLE authors DROP COLUMN name; PRAGMA user_version = 1");
   EXPECT_EQ(good(check_store(path_)), std::vector<std::string>{});
   good(backup_store(path_, backup_, false));
   good(restore_store(backup_, path_));
