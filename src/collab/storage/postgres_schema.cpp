@@ -70,7 +70,7 @@ constexpr const char* kMakeSchemaTables[] = {
 
 // Version 1 had no sums, and no names of authors. A server of that version that is connected goes on, and
 // writes rows without them.
-constexpr const char* kToVersion2[] = {
+constexpr const char* kUpgradePostgres[] = {
     "ALTER TABLE icome.edits ADD COLUMN sum bigint", "ALTER TABLE icome.snapshots ADD COLUMN sum bigint",
     "ALTER TABLE icome.authors ADD COLUMN name text COLLATE \"C\" NOT NULL DEFAULT ''",
     "UPDATE icome.store SET version = 2"};
@@ -143,7 +143,7 @@ base::Result<void> make_postgres_store(PostgresConnection& connection) {
     if (!*now) return make_schema(connection);
     if (const auto good = judge_schema(**now, connection.place()); !good) return good;
     const bool is_old = **now < kSchemaVersion;  // else another server was faster
-    return is_old ? execute_all(connection, kToVersion2) : base::Result<void>();
+    return is_old ? execute_all(connection, kUpgradePostgres) : base::Result<void>();
   });
 }
 

@@ -60,7 +60,7 @@ CREATE TABLE revoked (
 )";
 
 // Version 1 had no sums, so that its edits and snapshots are believed as they are, and no names of authors.
-constexpr const char* kToVersion2 = R"(
+constexpr const char* kUpgradeSqlite = R"(
 ALTER TABLE edits ADD COLUMN sum INTEGER;
 ALTER TABLE snapshots ADD COLUMN sum INTEGER;
 ALTER TABLE authors ADD COLUMN name TEXT NOT NULL DEFAULT '';
@@ -112,7 +112,7 @@ base::Result<void> bring_up_to_date(const SqliteDatabase& database) {
     const auto has = has_sums(database);
     if (!has) return tl::unexpected(has.error());
     return *has ? base::Result<void>()
-                : database.execute(kToVersion2);  // another process may have been faster
+                : database.execute(kUpgradeSqlite);  // another process may have been faster
   });
 }
 
