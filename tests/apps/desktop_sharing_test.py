@@ -60,7 +60,7 @@ class DesktopSharingTest(DesktopTest):
     def apply(self, edit):
         script = self.folder / "script.jsonl"
         script.write_text(edit + "\n")
-        self.assertEqual(run("edit", self.link, "--apply", script).returncode, 0)
+        self.assertEqual(run("edit", self.link, "--apply", script, ICOME_NAME="Cid").returncode, 0)
 
     def unsent(self):
         return [it["unsent"] for it in json.loads(self.kept("--list", "--json").stdout)["kept"]]
@@ -78,6 +78,9 @@ class DesktopSharingTest(DesktopTest):
         self.keep(ann, picture)
         ann.quit()
         self.assertEqual(ann.wait_end(), 0)
+
+    def objects(self):
+        return json.loads(run("info", self.link, "--json").stdout)["objects"]
 
     def leg_bounds(self):
         return json.loads(run("info", self.link, "--json").stdout)["bounds"]
@@ -105,10 +108,19 @@ class DesktopSharingTest(DesktopTest):
         third = self.leg_bounds()
         refused = self.kept(self.link)
         self.assertEqual(refused.returncode, 1, "there is something to choose")
-        self.assertRegex(refused.stderr, r"by others \(\"leg\", by \w+\)")
+        self.assertRegex(refused.stderr, r"by others \(\"leg\", by Cid\)")
         self.assertIn("nothing was sent", refused.stderr)
         self.assertEqual(self.leg_bounds(), third)
         self.assertEqual(self.unsent(), [1], "it is not lost either")
+
+        ann = self.sit_down(self.screen, "Ann")
+        ann.find_window("Yours and Theirs")
+        self.keep(ann, "sharing-choices")
+        ann.key("Return")  # both, unless somebody chooses otherwise
+        wait_for("Ann's leg beside the other one", lambda: self.objects() == 2)
+        ann.quit()
+        self.assertEqual(ann.wait_end(), 0)
+        self.assertEqual(self.unsent(), [0])
 
     def test_two_windows_on_two_displays(self):
         with Watcher(self.link, LEG + "\n", name="Script") as third:
