@@ -41,7 +41,13 @@ base::Result<RoomStart> read_start(OpLog& log, const DesignRow& design, std::uin
   std::uint64_t after = design.kept_after;
   while (true) {
     auto entries = log.read_from(design.name, after, kReadAtOnce);
-    if (!entries) return tl::unexpected(entries.error());
+    if (!entries) {
+      // The edits before the snapshot only spare those who come back from loading it.
+      if (!start.snapshot || after >= start.snapshot->sequence) return tl::unexpected(entries.error());
+      start.entries.clear();
+      after = start.snapshot->sequence;
+      continue;
+    }
     if (entries->empty()) return start;
     after = entries->back().sequence;
     std::ranges::move(*entries, std::back_inserter(start.entries));

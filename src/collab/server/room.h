@@ -49,7 +49,8 @@ struct RoomStart {
   AuthorNames names = {};
 };
 
-/// Reads what a room is made of; `fence` is that of the reader's lease.
+/// Reads what a room is made of; `fence` is that of the reader's lease. Where an edit before the snapshot is
+/// damaged, it begins with the snapshot; fails where one behind it is.
 base::Result<RoomStart> read_start(OpLog& log, const DesignRow& design, std::uint64_t fence);
 
 /// Somebody whose token was found good.

@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include "collab/server/room.h"
 #include "collab/storage/sample_log.h"
 #include "files/sample_files.h"
 #include "memory_place.h"
@@ -128,6 +129,17 @@ TEST_F(StoreCareTest, FindsEveryBitThatTurnsOverInAnEdit) {
   SqliteOpLog log = good(SqliteOpLog::open(path_));
   EXPECT_EQ(sentence_of(log.read_from("a", 5, 100'000)),
             "a: the edit 30 is not what was written: the store is damaged. Restore a backup.");
+}
+
+TEST_F(StoreCareTest, DamageBeforeASnapshotKeepsNobodyFromTheDesign) {
+  make();
+  change("UPDATE edits SET at = at + 1 WHERE sequence = 7");
+  SqliteOpLog log = good(SqliteOpLog::open(path_));
+  const RoomStart start = good(read_start(log, good(log.find("a")).value(), 1));
+  EXPECT_EQ(start.entries, sample_entries(10, 40, 300));
+  change("UPDATE edits SET at = at + 1 WHERE sequence = 11");
+  EXPECT_EQ(sentence_of(read_start(log, good(log.find("a")).value(), 1)),
+            "a: the edit 11 is not what was written: the store is damaged. Restore a backup.");
 }
 
 TEST_F(StoreCareTest, TakesAStoreFromBeforeThereWereSums) {
