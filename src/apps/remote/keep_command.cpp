@@ -93,17 +93,16 @@ std::optional<collab::KeptCopy> former_copy(const collab::KeptDesign& kept) {
 
 /// "leg, by Ann; arm, by Bob": some of the things that were changed both here and by others.
 std::string conflicts_text(const collab::Conversation& talk) {
-  constexpr std::size_t kMostTold = 5;
+  const std::vector<collab::Conflict>& all = talk.conflicts();
+  const std::size_t told = std::min<std::size_t>(5, all.size());
   const world::World made = talk.world_as_made_here();
   std::string text;
-  for (const collab::Conflict& it :
-       std::span(talk.conflicts()).first(std::min(kMostTold, talk.conflicts().size()))) {
+  for (const collab::Conflict& it : std::span(all).first(told)) {
     const world::World& named = collab::is_there(made, it.item) ? made : talk.replica().world();
     const std::string whose = it.whose == 0 ? "others" : talk.name_of(it.whose);
     text += fmt::format("{}{}, by {}", text.empty() ? "" : "; ", collab::called(named, it.item), whose);
   }
-  const std::size_t more = talk.conflicts().size() - std::min(kMostTold, talk.conflicts().size());
-  return more == 0 ? text : text + fmt::format("; and {} more", more);
+  return told == all.size() ? text : text + fmt::format("; and {} more", all.size() - told);
 }
 
 /// Sends what was done without the server, and tells what became of it.
@@ -114,8 +113,7 @@ base::Result<void> send_former(collab::Connection& connection, const collab::Kep
     leave_design(connection);
     return base::fail(
         fmt::format("{}: some things were changed both here, without the server, and by others ({}). Open it "
-                    "in the window "
-                    "(icome LINK) to choose; nothing was sent.",
+                    "in the window (icome LINK) to choose; nothing was sent.",
                     collab::shown_address(connection.talk().address()), things));
   }
   if (const auto sent = wait_until_durable(connection, status); !sent) return sent;

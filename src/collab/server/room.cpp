@@ -125,15 +125,27 @@ void Room::join(LinkId link, const Arrival& arrival, std::int64_t now) {
   member.known_number = author.last_number;
   welcome(member, true);
 
-  People everybody;
-  for (const auto& [number, other] : authors_)
-    if (other.person.here || other.is_remembered()) everybody.people.push_back(other.person);
-  tell(member, everybody);
+  tell(member, everybody());
   FloorState state;
   for (const auto& [item, hold] : floor_.holds()) state.holds.push_back({item, hold.holder, hold.fence, 0});
   std::ranges::sort(state.holds, {}, &FloorChanged::fence);
   tell(member, state);
   tell_all(People{{author.person}}, &member);
+}
+
+/// Those who are here, and of those who have gone the ones who made edits last.
+People Room::everybody() const {
+  constexpr std::size_t kMostGone = 500;
+  People people;
+  std::vector<const Author*> gone;
+  for (const auto& [number, author] : authors_) {
+    if (author.person.here) people.people.push_back(author.person);
+    if (!author.person.here && author.last_edit > 0 && !author.person.name.empty()) gone.push_back(&author);
+  }
+  std::ranges::sort(gone, std::ranges::greater{}, &Author::last_edit);
+  gone.resize(std::min(gone.size(), kMostGone));
+  for (const Author* const author : gone) people.people.push_back(author->person);
+  return people;
 }
 
 /// Says where the client stands and from where it goes on: behind what it has, or with a snapshot.

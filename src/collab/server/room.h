@@ -161,9 +161,7 @@ class Room {
     Person person = {.here = false};
     SharedBytes presence;
     std::uint64_t presence_version = 0;
-
-    /// Do others ask who it was, now that the person has gone?
-    bool is_remembered() const { return !accepted.empty() && !person.name.empty(); }
+    std::uint64_t last_edit = 0;  // its sequence; 0: none that is known here
   };
   struct Change {
     std::uint64_t sequence = 0;
@@ -204,6 +202,7 @@ class Room {
   void tell_all(const ServerMessage& message, const Member* but = nullptr);
   void tell_free(const std::vector<Hold>& holds);
   void grant_waiting();
+  People everybody() const;
   std::uint32_t free_colour(std::uint32_t author) const;
   void part(Member& member, const std::string& why, Parting code);
   void trim_tail();

@@ -209,6 +209,7 @@ void Room::order(Member& member, const Submit& message, world::Edit edit, std::i
 void Room::append_to_tail(std::uint32_t author, std::uint64_t number, std::string bytes, world::Edit edit) {
   ++sequence_;
   for (const Touched& it : touched_by(edit)) changed_[it] = {sequence_, author};
+  authors_[author].last_edit = sequence_;
   std::deque<std::uint64_t>& accepted = authors_[author].accepted;
   accepted.push_back(number);
   if (accepted.size() > kMostAccepted) accepted.pop_front();

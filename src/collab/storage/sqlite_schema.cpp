@@ -160,7 +160,8 @@ base::Result<void> make_store(const SqliteDatabase& database) {
     if (const auto good = judge_marks(*marks, database); !good) return good;
   }
   if (const auto begun = begin_write_ahead(database); !begun) return begun;
-  return marks->is_empty() ? make_tables(database) : bring_up_to_date(database);
+  if (marks->is_empty()) return make_tables(database);
+  return marks->version < kStoreVersion ? bring_up_to_date(database) : base::Result<void>();
 }
 
 }  // namespace icome::collab

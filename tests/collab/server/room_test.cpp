@@ -226,6 +226,22 @@ TEST_F(RoomTest, NamesThoseWhoHaveGoneAndWhoseEditsAreKept) {
   EXPECT_EQ(here, (std::map<std::string, bool>{{"Ann", false}, {"Bob", true}, {"Cid", false}}));
 }
 
+TEST_F(RoomTest, NamesOnlyTheLastOfVeryManyWhoHaveGone) {
+  RoomStart start;
+  for (std::uint32_t i = 2; i < 12'002; ++i) {
+    start.entries.push_back(
+        {i, i, 1, 0, world::to_bytes(world::PlaceObject{ObjectId{1}, world::at(i, 0, 0)}).value()});
+    start.names[i] = std::string(kMostPersonBytes, 'a');
+  }
+  open(start);
+  room_->join(1, {.author = 1, .role = Role::Edit, .name = "Ann"}, now_);
+  EXPECT_FALSE(room_->parting(1)) << "it is not too much at once";
+  const std::vector<People> people = heard_of<People>(1);
+  ASSERT_EQ(people.size(), 1U);
+  EXPECT_EQ(people[0].people.size(), 501U);
+  EXPECT_EQ(people[0].people[1].author, 12'001U);
+}
+
 TEST_F(RoomTest, RefusesAnEditOfAHoldThatHasEnded) {
   join(1, 1, Role::Edit, "Ann");
   join(2, 2, Role::Edit, "Bob");
