@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <utility>
 
 #include "session/session.h"
 #include "ui/timed_application.h"
@@ -24,9 +25,9 @@ inline TimedApplication& application() {
 /// A session with an empty design, and what panels do with it.
 class DesktopTest : public ::testing::Test {
  protected:
-  DesktopTest() {
+  explicit DesktopTest(session::SessionSettings settings = {}) {
     application();
-    auto made = session::Session::create({});
+    auto made = session::Session::create(std::move(settings));
     EXPECT_TRUE(made) << made.error().message;
     session_ = std::move(*made);
   }

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "ui/desktop_test.h"
 #include "ui/window/main_window.h"
@@ -22,7 +23,10 @@ namespace icome::ui {
 /// The whole window, where there is no OpenGL: all but the picture of the scene.
 class WindowTest : public DesktopTest {
  protected:
-  WindowTest() : settings_(folder_.filePath("icome.conf"), QSettings::IniFormat) { open_window(); }
+  explicit WindowTest(session::SessionSettings settings = {})
+      : DesktopTest(std::move(settings)), settings_(folder_.filePath("icome.conf"), QSettings::IniFormat) {
+    open_window();
+  }
 
   void open_window() {
     window_.reset();

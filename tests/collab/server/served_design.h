@@ -37,6 +37,7 @@ class ServedDesign {
     ASSERT_TRUE(server) << server.error().message;
     server_ = std::move(*server);
     endpoint_ = server_->endpoint();
+    fingerprint_ = server_->fingerprint();
     ends_ = false;
     thread_ = std::thread([this] { EXPECT_TRUE(server_->run([this] { return ends_.load(); })); });
   }
@@ -46,6 +47,7 @@ class ServedDesign {
     server_.reset();
   }
 
+  /// Also while the server is stopped.
   DesignAddress address(Role role) const {
     const StoreFolder folder = StoreFolder::open(folder_).value();
     SqliteOpLog log = SqliteOpLog::open(folder.designs()).value();
@@ -53,13 +55,14 @@ class ServedDesign {
     const TokenSigner signer = TokenSigner::open(folder.token_key()).value();
     const auto token =
         signer.sign({make_invitation_id().value(), "table", role, wall_milliseconds() + 600'000});
-    return {endpoint_.host, endpoint_.port, "table", token.value(), server_->fingerprint()};
+    return {endpoint_.host, endpoint_.port, "table", token.value(), fingerprint_};
   }
   std::string link(Role role) const { return link_text(address(role)); }
 
  private:
   std::filesystem::path folder_ = own_folder("server");
   Endpoint endpoint_ = {};
+  std::string fingerprint_;
   std::unique_ptr<DesignServer> server_;
   std::atomic<bool> ends_ = false;
   std::thread thread_;

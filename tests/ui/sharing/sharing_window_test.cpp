@@ -8,6 +8,7 @@
 #include <QTest>
 
 #include "collab/server/served_design.h"
+#include "own_folder.h"
 #include "ui/panels/wrapped_label.h"
 #include "ui/sharing/conflict_dialog.h"
 #include "ui/sharing/connect_dialog.h"
@@ -20,7 +21,7 @@ using collab::Role;
 
 class SharingWindowTest : public WindowTest {
  protected:
-  SharingWindowTest() {
+  SharingWindowTest() : WindowTest({.kept_folder = own_folder("kept")}) {
     auto made = session::Session::create({});
     EXPECT_TRUE(made) << made.error().message;
     colleague_ = std::move(*made);
@@ -148,6 +149,31 @@ TEST_F(SharingWindowTest, AsksBeforeWhatTheServerHasNotGotIsLeft) {
   ASSERT_TRUE(same());
   action("file.new")->trigger();
   EXPECT_FALSE(session().sharing().state()) << "all is on the server: nothing to ask";
+}
+
+TEST_F(SharingWindowTest, KeepsADesignForOfflineWorkUntilToldNotTo) {
+  EXPECT_FALSE(action("file.keep")->isEnabled()) << "there is no design of a server";
+  join();
+  const world::ObjectId leg = add("leg");
+  ASSERT_TRUE(same());
+  const auto keep = [&] {
+    QAction* const entry = action("file.keep");
+    QMetaObject::invokeMethod(entry->associatedObjects().front(), "aboutToShow");
+    return entry;
+  };
+  ASSERT_TRUE(keep()->isEnabled());
+  EXPECT_FALSE(keep()->isChecked());
+  keep()->trigger();
+  EXPECT_TRUE(keep()->isChecked());
+  action("file.new")->trigger();
+  served_.stop();
+  EXPECT_FALSE(keep()->isEnabled());
+  join();
+  EXPECT_EQ(session().sharing().state()->connection, collab::ConversationState::Away);
+  EXPECT_EQ(world().find(leg)->name, "leg");
+  EXPECT_TRUE(keep()->isChecked());
+  keep()->trigger();
+  EXPECT_FALSE(keep()->isChecked()) << "nothing of it is kept any more";
 }
 
 }  // namespace
