@@ -113,6 +113,17 @@ class ServeTest(SharedTest):
         self.assertEqual(rows[0]["design"], "table")
         self.assertNotIn(link.split("token=")[1].split("&")[0], text)
 
+    def test_an_audit_log_that_was_moved_away_begins_anew(self):
+        server = self.serve()
+        link = server.invite()
+        self.edit(link, BOX)
+        log = self.store / "audit.jsonl"
+        log.rename(self.store / "audit.jsonl.1")
+        self.edit(link, line(op="create", shape="sphere"))
+        server.end()
+        for part in (log, self.store / "audit.jsonl.1"):
+            self.assertEqual([json.loads(row)["what"] for row in part.read_text().splitlines()], ["join", "leave"])
+
 
 class ServerProgramTest(SharedTest):
     """icome-server, the program for machines without a display."""

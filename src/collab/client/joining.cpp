@@ -1,7 +1,10 @@
 #include "collab/client/joining.h"
 
 #include <fmt/format.h>
+#include <pwd.h>
+#include <unistd.h>
 
+#include <array>
 #include <cstdlib>
 
 #include "base/version.h"
@@ -13,6 +16,10 @@ namespace {
 std::string person_of_this_machine() {
   for (const char* const name : {"ICOME_NAME", "USER", "LOGNAME"})
     if (const char* const value = std::getenv(name); value != nullptr && *value != '\0') return value;
+  passwd account = {}, *found = nullptr;
+  std::array<char, 4096> names = {};
+  if (::getpwuid_r(::getuid(), &account, names.data(), names.size(), &found) == 0 && found != nullptr)
+    return found->pw_name;
   return "Somebody";
 }
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/clock.h"
@@ -30,23 +30,6 @@ std::int64_t steady_milliseconds() { return base::steady_nanoseconds() / 1'000'0
 /// The subject at which a server listens on the bus; without a name, the one at which all do.
 std::string subject_of(const std::string& server) {
   return server.empty() ? std::string("icome.all") : "icome.server." + server;
-}
-
-/// The text as JSON writes it.
-std::string quoted_json(const std::string& text) {
-  std::string result = "\"";
-  for (const char letter : text) {
-    const auto code = static_cast<unsigned char>(letter);
-    if (letter == '"' || letter == '\\') {
-      result += '\\';
-      result += letter;
-    } else if (code < 0x20) {
-      result += fmt::format("\\u{:04x}", code);
-    } else {
-      result += letter;
-    }
-  }
-  return result + '"';
 }
 
 constexpr std::int64_t kDatabaseLease = 4'000;  // ms: so soon another server takes over where one has died
@@ -138,21 +121,18 @@ DesignServer::DesignServer(const StoreFolder& files, io::OpenFile lock, const To
       shown_store_(std::move(shown_store)),
       lock_(std::move(lock)),
       hub_(
-          settings, signer, factory_, [this](const AuditRow& row) { write_audit(row); },
+          settings, signer, factory_, [this](const AuditRow& row) { audit_.write(row); },
           [this](LinkId link, const std::string& server, std::string_view hello) {
             return pass_on(link, server, hello);
           }),
       relays_({settings.holder, signer.derived_key("bus")}, *this),
-      audit_(std::fopen(files.audit().c_str(), "ae")),
+      audit_(files.audit()),
       started_(steady_milliseconds()) {}
 
-DesignServer::~DesignServer() {
-  log_.reset();
-  if (audit_ != nullptr) std::fclose(audit_);
-}
+DesignServer::~DesignServer() { log_.reset(); }
 
 base::Result<void> DesignServer::start(const ServeSettings& settings, std::unique_ptr<OpLog> log) {
-  if (audit_ == nullptr) return base::fail(folder_.string() + ": the audit log cannot be written there.");
+  if (!audit_.is_open()) return base::fail(folder_.string() + ": the audit log cannot be written there.");
   auto loop = LinkLoop::create(*this);
   if (!loop) return tl::unexpected(loop.error());
   loop_ = std::move(*loop);
@@ -372,7 +352,7 @@ void DesignServer::tick() {
 HttpAnswer DesignServer::answer(std::string_view path) const {
   if (path == "/health" && hub_.trouble().empty()) return {200, "application/json", "{\"status\":\"ok\"}\n"};
   if (path == "/health")
-    return {503, "application/json", fmt::format("{{\"status\":{}}}\n", quoted_json(hub_.trouble()))};
+    return {503, "application/json", nlohmann::json{{"status", hub_.trouble()}}.dump() + "\n"};
   if (path != "/metrics") return {404, "text/plain; charset=utf-8", "There are /health and /metrics.\n"};
   const HubCounters& it = hub_.counters();
   std::string text;
@@ -394,16 +374,6 @@ HttpAnswer DesignServer::answer(std::string_view path) const {
   add("uptime_seconds", "gauge", "Since the server began.",
       std::uint64_t((steady_milliseconds() - started_) / 1'000));
   return {200, "text/plain; version=0.0.4; charset=utf-8", std::move(text)};
-}
-
-void DesignServer::write_audit(const AuditRow& row) {
-  const std::string line = fmt::format(
-      "{{\"at\":{},\"what\":{},\"address\":{},\"design\":{},\"name\":{},\"invitation\":{},\"author\":{},"
-      "\"detail\":{}}}\n",
-      row.at, quoted_json(row.what), quoted_json(row.address), quoted_json(row.design), quoted_json(row.name),
-      quoted_json(row.invitation), row.author, quoted_json(row.detail));
-  std::fwrite(line.data(), 1, line.size(), audit_);
-  std::fflush(audit_);
 }
 
 }  // namespace icome::collab

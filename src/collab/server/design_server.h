@@ -94,7 +94,6 @@ class DesignServer final : private LinkEvents, private RelayEvents {
   void choose_pace(std::int64_t now);
   void tick();
   HttpAnswer answer(std::string_view path) const;
-  void write_audit(const AuditRow& row);
 
   std::filesystem::path folder_;  // of its files
   std::string shown_store_;
@@ -104,7 +103,7 @@ class DesignServer final : private LinkEvents, private RelayEvents {
   Hub hub_;
   Relays relays_;
   std::unique_ptr<LogThread> log_;
-  std::FILE* audit_ = nullptr;
+  AuditLog audit_;
   Endpoint endpoint_;
   std::optional<Endpoint> health_;
   std::string fingerprint_;

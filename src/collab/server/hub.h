@@ -9,22 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "collab/server/audit_log.h"
 #include "collab/server/room.h"
 #include "collab/server/token.h"
 
 namespace icome::collab {
-
-/// Something that somebody did, for the audit log. No tokens.
-struct AuditRow {
-  std::int64_t at = 0;       // ms since 1970
-  std::string what = {};     // "join", "leave", "refused", "edit", "revoked", "open", "close"
-  std::string address = {};  // of the client
-  std::string design = {};
-  std::string name = {};        // of the person
-  std::string invitation = {};  // its id
-  std::uint32_t author = 0;
-  std::string detail = {};
-};
 
 /// What a hub has done so far, for /metrics.
 struct HubCounters {

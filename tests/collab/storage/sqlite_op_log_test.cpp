@@ -184,6 +184,7 @@ TEST_F(SqliteOpLogTest, WaitsForNobodyForEver) {
   EXPECT_EQ(append_to(log, "a", 0, 1, {}).value().message,
             path_.string() +
                 ": another program keeps it locked. End that program, or wait for it, then try again.");
+  EXPECT_EQ(good(opened().designs()).size(), 1U) << "to open and to read, nothing is locked";
   sqlite3_exec(other, "ROLLBACK", nullptr, nullptr, nullptr);
   sqlite3_close(other);
   EXPECT_TRUE(log.create("b"));
