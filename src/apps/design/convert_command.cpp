@@ -46,8 +46,11 @@ int convert_to_server(const ConvertOptions& options, StatusLine& status) {
   for (const files::Remark& remark : design->remarks)
     warnings.push_back(sentence(remark, shown_name(options.in)));
   if (!options.json) {
-    std::string text = fmt::format("{}: {} object{} put in, as edit {}\n", shown_name(options.out),
-                                   grouped(sent->objects), sent->objects == 1 ? "" : "s", sent->sequence);
+    std::string text =
+        fmt::format("{}: {} object{} put in{}, as edit {}\n", shown_name(options.out), grouped(sent->objects),
+                    sent->objects == 1 ? "" : "s",
+                    sent->beside == 0 ? "" : fmt::format(" beside the {} there", grouped(sent->beside)),
+                    sent->sequence);
     for (const std::string& warning : warnings) text += "  " + warning + "\n";
     return print_answer(text);
   }
@@ -56,7 +59,7 @@ int convert_to_server(const ConvertOptions& options, StatusLine& status) {
   Json report{{"in", shown_name(options.in)}, {"out", shown_name(options.out)},
               {"objects", figures->objects},  {"triangles", figures->triangles},
               {"bytes", sent->bytes},         {"warnings", warnings},
-              {"sequence", sent->sequence}};
+              {"sequence", sent->sequence},   {"beside", sent->beside}};
   return print_answer(report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

@@ -136,10 +136,10 @@ base::Result<SentModel> send_model(const world::World& model, const std::string&
   const world::Edit edit = collab::integration_of(model, design, *above, ids);
   const auto bytes = world::to_bytes(edit);
   if (!bytes) return tl::unexpected(bytes.error());
+  SentModel sent{0, model.objects().size(), bytes->size(), design.objects().size()};
   const auto number = talk.perform(edit, "Integrate");
   if (!number) return tl::unexpected(number.error());
   if (const auto done = wait_until_durable(**connection, status); !done) return tl::unexpected(done.error());
-  SentModel sent{0, model.objects().size(), bytes->size()};
   for (const collab::Seen& seen : talk.take_seen()) {
     if (const auto* const dropped = std::get_if<collab::Dropped>(&seen)) return base::fail(dropped->why);
     if (const auto* const made = std::get_if<collab::SeenEdit>(&seen); made && made->number == *number)

@@ -45,6 +45,7 @@ struct SentModel {
   std::uint64_t sequence = 0;  // of the edit that it came by
   std::size_t objects = 0;     // in it
   std::uint64_t bytes = 0;     // of the edit
+  std::size_t beside = 0;      // objects that were there before
 };
 /// Puts a model into the design of an address, under the object of that name (empty: as new roots), and waits
 /// until that is durable.

@@ -1,11 +1,14 @@
 // The window at work on a design of a server; another session is the colleague.
 #include <QComboBox>
 #include <QDialogButtonBox>
+#include <QDropEvent>
 #include <QLabel>
 #include <QListWidget>
+#include <QMimeData>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QTest>
+#include <QUrl>
 
 #include "collab/server/served_design.h"
 #include "own_folder.h"
@@ -28,6 +31,8 @@ class SharingWindowTest : public WindowTest {
     colleague_->sharing().open(served_.link(Role::Edit), "Bob & <b>Co</b>");
     EXPECT_TRUE(both_until([&] { return colleague_->sharing().state().has_value(); }));
   }
+  /// Leaves the design, as the server that ends would wait for the window to do.
+  ~SharingWindowTest() override { session().files().make_new(); }
   template <typename Come>
   bool both_until(const Come& come) {
     return until([&] {
@@ -76,6 +81,23 @@ TEST_F(SharingWindowTest, SaysWhatIsWrongWithAnAddressWhileItIsTyped) {
   EXPECT_TRUE(open.isEnabled());
   const QString token = link.mid(link.indexOf("token=") + 6, 20);
   EXPECT_FALSE(part<QLabel>("connect.remark").text().contains(token)) << "it is a secret";
+}
+
+TEST_F(SharingWindowTest, OpensALinkThatIsDroppedOnIt) {
+  const QString link = QString::fromStdString(served_.link(Role::Edit));
+  QMimeData text, url;
+  text.setText(link + "\n");
+  url.setUrls({QUrl(link)});  // as from a browser
+  for (const QMimeData* data : {&text, &url}) {
+    action("file.new")->trigger();
+    ASSERT_FALSE(session().sharing().state());
+    QDragEnterEvent entered({10, 10}, Qt::CopyAction, data, Qt::LeftButton, {});
+    QCoreApplication::sendEvent(window_.get(), &entered);
+    EXPECT_TRUE(entered.isAccepted());
+    QDropEvent drop({10.0, 10.0}, Qt::CopyAction, data, Qt::LeftButton, {});
+    QCoreApplication::sendEvent(window_.get(), &drop);
+    ASSERT_TRUE(both_until([&] { return session().sharing().state().has_value(); }));
+  }
 }
 
 TEST_F(SharingWindowTest, ShowsWhoIsHereWhatTheyHoldAndSay) {
