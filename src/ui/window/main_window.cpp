@@ -312,6 +312,8 @@ void MainWindow::show_sharing() {
     sharing_->setText(state);
     sharing_->setVisible(!state.isEmpty());
     sharing_->setToolTip(tip_of(sharing_tip(session_)));
+    if (state.isEmpty())
+      for (const char* const topic : kSharingTopics) banner_->forget(topic);
   }
   QString floor;
   for (const auto& person : session_.sharing().people()) {

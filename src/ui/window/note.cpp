@@ -132,7 +132,7 @@ Note note_of(const SessionEvent& event) {
       note.weight = Weight::Passing;
       break;
     case SessionEvent::Kind::SharingEnds:
-      note.topic = "server";
+      note.topic = "sharing ends";
       note.weight = Weight::Error;
       note.remedies = {Remedy::SaveAs};
       break;

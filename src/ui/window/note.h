@@ -35,6 +35,9 @@ struct Note {
   std::filesystem::path design = {};
 };
 
+/// Topics of what is of use only while a shared design is open.
+inline constexpr const char* kSharingTopics[] = {"server", "conflicts", "floor"};
+
 /// Text of the button of a remedy.
 const char* label(Note::Remedy remedy);
 

@@ -196,6 +196,14 @@ TEST_F(SharingWindowTest, KeepsADesignForOfflineWorkUntilToldNotTo) {
   EXPECT_TRUE(keep()->isChecked());
   keep()->trigger();
   EXPECT_FALSE(keep()->isChecked()) << "nothing of it is kept any more";
+  const auto tells = [&](const char* words) {
+    for (const QLabel* label : part<QWidget>("banner").findChildren<QLabel*>())
+      if (label->isVisible() && label->text().contains(words)) return true;
+    return false;
+  };
+  EXPECT_TRUE(until([&] { return tells("the copy that was kept here"); }));
+  action("file.new")->trigger();
+  EXPECT_TRUE(until([&] { return !tells("the copy that was kept here"); })) << "it is not open any more";
 }
 
 }  // namespace
