@@ -46,11 +46,10 @@ int convert_to_server(const ConvertOptions& options, StatusLine& status) {
   for (const files::Remark& remark : design->remarks)
     warnings.push_back(sentence(remark, shown_name(options.in)));
   if (!options.json) {
-    std::string text =
-        fmt::format("{}: {} object{} put in{}, as edit {}\n", shown_name(options.out), grouped(sent->objects),
-                    sent->objects == 1 ? "" : "s",
-                    sent->beside == 0 ? "" : fmt::format(" beside the {} there", grouped(sent->beside)),
-                    sent->sequence);
+    std::string text = fmt::format(
+        "{}: {} object{} put in{}, as edit {}\n", shown_name(options.out), grouped(sent->objects),
+        sent->objects == 1 ? "" : "s",
+        sent->beside == 0 ? "" : fmt::format(" beside the {} there", grouped(sent->beside)), sent->sequence);
     for (const std::string& warning : warnings) text += "  " + warning + "\n";
     return print_answer(text);
   }
