@@ -1,35 +1,28 @@
 #include "collab/link/link_loop.h"
 
 #include <fmt/format.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
-#include <sys/socket.h>
 
 #include <algorithm>
-#include <array>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/beast/core/async_base.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <cassert>
-#include <cstdlib>
-#include <new>
 #include <optional>
 #include <unordered_map>
 #include <utility>
 
 #include "base/terminal_text.h"
 #include "base/utf8.h"
-#include "collab/link/wire/byte_channel.h"
+#include "collab/link/wire/frame_in_part.h"
 #include "collab/link/wire/http_listener.h"
 #include "collab/link/wire/listening_socket.h"
 #include "collab/link/wire/tls_context.h"
+#include "collab/link/wire/wire_stream.h"
 
 namespace icome::collab {
 namespace {
@@ -38,254 +31,17 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 namespace websocket = beast::websocket;
-using LinkError = boost::system::error_code;
-using LinkClock = std::chrono::steady_clock;
-using Executor = asio::io_context::executor_type;
 using Tcp = asio::ip::tcp;
-using Socket = asio::basic_stream_socket<Tcp, Executor>;
 using Acceptor = asio::basic_socket_acceptor<Tcp, Executor>;
 using Resolver = asio::ip::basic_resolver<Tcp, Executor>;
-using Timer = asio::basic_waitable_timer<LinkClock, asio::wait_traits<LinkClock>, Executor>;
 
 constexpr char kPath[] = "/icome";
-constexpr std::size_t kRecordBytes = 16'384;            // the longest that TLS encrypts at once
 constexpr std::size_t kMostOfUpgrade = 8192;            // the header of a request to upgrade
 constexpr std::size_t kServerPieceBytes = 4 * 16'384;   // of a longer frame; pings go between two
 constexpr std::size_t kClientPieceBytes = 16'384 - 14;  // with its header one record
-constexpr int kUnsentBytes = 128 * 1024;                // in the system: more waits in send(), for newer news
-constexpr std::chrono::milliseconds kClosingTime{1000};
 constexpr std::chrono::milliseconds kRestWithoutDescriptors{100};
 
-using Scratch = std::array<char, kRecordBytes>;
-
-// ---- A socket as Boost.Beast wants its streams ----
-
-/// A socket with or without TLS for Boost.Beast's algorithms; owns it. It waits until the socket is ready and
-/// then moves bytes by a ByteChannel, so that unlike asio::ssl::stream it needs no buffers while it waits.
-class Wire {
- public:
-  using executor_type = Executor;  // NOLINT(readability-identifier-naming): Asio's
-
-  Wire(const Executor& executor, Scratch& scratch)
-      : socket_(executor), linger_(executor), scratch_(scratch), last_sign_(LinkClock::now()) {}
-
-  Executor get_executor() noexcept { return socket_.get_executor(); }
-  Socket& socket() { return socket_; }
-  ByteChannel& channel() { return channel_; }
-  /// What keeps this wire alive: set before anything else.
-  void belong_to(std::weak_ptr<void> owner) { owner_ = std::move(owner); }
-  void start(std::chrono::milliseconds patience);
-  void close() {
-    LinkError ignored;
-    socket_.close(ignored);
-    linger_.cancel();
-  }
-
-  /// When the other side was last seen alive: something came, or what had to wait could be sent.
-  LinkClock::time_point last_sign() const { return last_sign_; }
-  void woke() {
-    channel_.may_read();
-    last_sign_ = LinkClock::now();
-  }
-  /// Ends the wait for the other side's end in a second.
-  void limit_linger();
-
-  template <typename Buffers, typename Handler>
-  void async_read_some(const Buffers& buffers, Handler&& handler);
-  template <typename Buffers, typename Handler>
-  void async_write_some(const Buffers& buffers, Handler&& handler);
-  template <typename Handler>
-  void async_shake_hands(Handler&& handler);
-
- private:
-  template <typename Buffers>
-  Transfer write(const Buffers& buffers);
-
-  Socket socket_;
-  Timer linger_;
-  ByteChannel channel_;
-  Scratch& scratch_;
-  LinkClock::time_point last_sign_;
-  std::weak_ptr<void> owner_;
-};
-
-void Wire::start(std::chrono::milliseconds patience) {
-  const int socket = socket_.native_handle();
-  const int on = 1;  // a frame waits for no other one
-  ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
-  ::setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kUnsentBytes, sizeof(kUnsentBytes));
-  const auto time = unsigned(std::max<std::int64_t>(1, patience.count()));
-  ::setsockopt(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, &time, sizeof(time));
-  channel_.use(socket);
-}
-
-void Wire::limit_linger() {
-  linger_.expires_after(kClosingTime);
-  linger_.async_wait([this, owner = owner_](LinkError error) {
-    if (error) return;
-    const std::shared_ptr<void> alive = owner.lock();
-    LinkError ignored;
-    if (alive) socket_.cancel(ignored);
-  });
-}
-
-/// Repeats an attempt, which gives a Transfer, whenever the socket is ready for it.
-template <typename Attempt, typename Handler>
-class TransferOperation : public beast::async_base<Handler, Executor> {
- public:
-  template <typename GivenHandler>
-  TransferOperation(Wire& wire, Attempt attempt, GivenHandler&& handler)
-      : beast::async_base<Handler, Executor>(std::forward<GivenHandler>(handler), wire.get_executor()),
-        wire_(wire),
-        attempt_(std::move(attempt)) {
-    go_on(false);
-  }
-
-  void operator()(LinkError error) {
-    if (error) return this->complete(true, error, std::size_t{0});
-    wire_.woke();
-    go_on(true);
-  }
-
- private:
-  void go_on(bool has_waited) {
-    const Transfer transfer = attempt_();
-    Socket& socket = wire_.socket();
-    switch (transfer.outcome) {
-      case Transfer::Outcome::WaitToRead:
-        return socket.async_wait(Socket::wait_read, std::move(*this));
-      case Transfer::Outcome::WaitToWrite:
-        return socket.async_wait(Socket::wait_write, std::move(*this));
-      case Transfer::Outcome::Done:
-        return this->complete(has_waited, LinkError(), transfer.bytes);
-      case Transfer::Outcome::Ended:
-        return this->complete(has_waited, LinkError(asio::error::eof), std::size_t{0});
-      case Transfer::Outcome::Broken:
-        break;
-    }
-    const LinkError error = transfer.error == 0 ? make_error_code(boost::system::errc::protocol_error)
-                                                : LinkError(transfer.error, boost::system::system_category());
-    this->complete(has_waited, error, std::size_t{0});
-  }
-
-  Wire& wire_;
-  Attempt attempt_;
-};
-
-template <typename Attempt, typename Handler>
-void begin_transfer(Wire& wire, Attempt attempt, Handler&& handler) {
-  TransferOperation<Attempt, std::decay_t<Handler>>(wire, std::move(attempt), std::forward<Handler>(handler));
-}
-
-template <typename Buffers, typename Handler>
-void Wire::async_read_some(const Buffers& buffers, Handler&& handler) {
-  asio::mutable_buffer to;
-  for (auto at = asio::buffer_sequence_begin(buffers); at != asio::buffer_sequence_end(buffers); ++at)
-    if (to.size() == 0) to = asio::mutable_buffer(*at);
-  begin_transfer(
-      *this, [this, to] { return channel_.read(static_cast<char*>(to.data()), to.size()); },
-      std::forward<Handler>(handler));
-}
-
-/// As much as goes into one record of TLS, however many buffers it lies in.
-template <typename Buffers>
-Transfer Wire::write(const Buffers& buffers) {
-  for (auto at = asio::buffer_sequence_begin(buffers); at != asio::buffer_sequence_end(buffers); ++at) {
-    const asio::const_buffer first(*at);
-    if (first.size() >= kRecordBytes)
-      return channel_.write(static_cast<const char*>(first.data()), first.size());
-    if (first.size() > 0) break;
-  }
-  const std::size_t size = asio::buffer_copy(asio::buffer(scratch_), buffers);
-  return channel_.write(scratch_.data(), size);
-}
-
-template <typename Buffers, typename Handler>
-void Wire::async_write_some(const Buffers& buffers, Handler&& handler) {
-  begin_transfer(
-      *this, [this, buffers] { return write(buffers); }, std::forward<Handler>(handler));
-}
-
-template <typename Handler>
-void Wire::async_shake_hands(Handler&& handler) {
-  begin_transfer(
-      *this, [this] { return channel_.shake_hands(); }, std::forward<Handler>(handler));
-}
-
-/// Ends a wire in good order: says so, and reads on for a second until the other side has ended it too. What
-/// comes unread to a closed socket would have the system take our last words back.
-template <typename Handler>
-class EndOperation : public beast::async_base<Handler, Executor> {
- public:
-  template <typename GivenHandler>
-  EndOperation(Wire& wire, GivenHandler&& handler)
-      : beast::async_base<Handler, Executor>(std::forward<GivenHandler>(handler), wire.get_executor()),
-        wire_(wire) {
-    wire_.channel().end_writing();
-    wire_.limit_linger();
-    go_on(false);
-  }
-
-  void operator()(LinkError error) {
-    if (error) return this->complete(true, LinkError());
-    wire_.woke();
-    go_on(true);
-  }
-
- private:
-  void go_on(bool has_waited) {
-    if (wire_.channel().drain().outcome != Transfer::Outcome::WaitToRead)
-      return this->complete(has_waited, LinkError());
-    wire_.socket().async_wait(Socket::wait_read, std::move(*this));
-  }
-
-  Wire& wire_;
-};
-
-/// Found by Boost.Beast, which ends a connection by it.
-template <typename Handler>
-void async_teardown(beast::role_type /*role*/, Wire& wire, Handler&& handler) {
-  EndOperation<std::decay_t<Handler>>(wire, std::forward<Handler>(handler));
-}
-/// Found by Boost.Beast, which calls it where its own times are over; we use none of them.
-void beast_close_socket(Wire& wire) { wire.close(); }
-
 // ---- One connection ----
-
-/// A frame of which a part has come; keeps little between two frames. Owns its bytes.
-class FrameInPart {
- public:
-  /// Room for what comes next: as much again as has come, as a sender can announce more than it will send.
-  asio::mutable_buffer room(std::size_t most) {
-    if (size_ == capacity_) {
-      const std::size_t wanted = std::clamp(2 * capacity_, kFirstBytes, std::max(kFirstBytes, most + 1));
-      void* const grown = std::realloc(bytes_.get(), wanted);
-      if (grown == nullptr) throw std::bad_alloc();
-      static_cast<void>(bytes_.release());
-      bytes_.reset(static_cast<char*>(grown));
-      capacity_ = wanted;
-    }
-    return {bytes_.get() + size_, capacity_ - size_};
-  }
-  void add(std::size_t size) { size_ += size; }
-  std::string_view view() const { return {bytes_.get(), size_}; }
-  void clear() {
-    size_ = 0;
-    if (capacity_ <= kKeptBytes) return;
-    bytes_.reset();
-    capacity_ = 0;
-  }
-
- private:
-  static constexpr std::size_t kFirstBytes = 1024;
-  static constexpr std::size_t kKeptBytes = 4096;
-  struct Free {
-    void operator()(char* bytes) const { std::free(bytes); }
-  };
-  std::unique_ptr<char, Free> bytes_;
-  std::size_t size_ = 0;
-  std::size_t capacity_ = 0;
-};
 
 std::string shown_address(const Tcp::endpoint& address) {
   return shown_endpoint({address.address().to_string(), address.port()});
@@ -727,7 +483,7 @@ void WebLink::close(const std::string& why) {
   state_ = State::Closing;
   why_ = why;
   if (!was_open) return asio::post(shares_.context, [self = shared_from_this()] { self->over(self->why_); });
-  arm(kClosingTime);
+  arm(kMostClosing);
   if (!is_sending_) say_goodbye();  // or else it would come between two pieces of a frame
 }
 
