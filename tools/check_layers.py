@@ -25,6 +25,9 @@ MOST_FILES = 40
 # What the headers of a folder may bring in besides, as it is made of nothing else: windows derive from Qt's.
 OWN_HEADERS = {"ui": re.compile(r"Q[A-Za-z]+")}
 
+# Rooms whose headers may bring in a library, as only the sources of the room itself include them.
+OWN_ROOMS = {"collab/link/wire": re.compile(r"boost/.+|netinet/.+|sys/socket\.h")}
+
 
 def read_table(text):
     """Returns {folder: {folder it may use: whether its subfolders too}} from the text of layers.txt."""
@@ -53,16 +56,19 @@ def why_not(table, folder, target):
 def check_includes(path, text, table, source_root):
     """Yields (line number, complaint) for the #include lines of the file at `path` under src/."""
     folder = path.relative_to(source_root).parts[0]
+    room = path.relative_to(source_root).parent.as_posix()
     for match in INCLUDE.finditer(text):
         bracket, target = match.groups()
         line = text.count("\n", 0, match.start(2)) + 1
         if bracket == "<":
-            own = OWN_HEADERS.get(folder)
+            own = OWN_ROOMS.get(room) or OWN_HEADERS.get(folder)
             is_free = SHARED_HEADERS.fullmatch(target) or (own and own.fullmatch(target))
             if path.suffix == ".h" and not is_free:
                 yield line, f"<{target}> belongs in a source file, hidden behind this header"
         elif target.split("/")[0] not in table:
             yield line, f'"{target}" does not begin with a folder of src/'
+        elif target.rpartition("/")[0] in OWN_ROOMS and target.rpartition("/")[0] != room:
+            yield line, f'"{target}" is for the sources beside it only'
         else:
             complaint = why_not(table, folder, target)
             if complaint:

@@ -55,6 +55,14 @@ class CheckLayersTest(unittest.TestCase):
         (complaint,) = self.complaints({"src/session/a.h": "#include <QWidget>\n"})
         self.assertIn("<QWidget> belongs in a source file", complaint)
 
+    def test_a_room_of_its_own_library_keeps_its_headers_to_itself(self):
+        wire = {"src/collab/link/wire/a.h": "#include <boost/asio/buffer.hpp>\n"}
+        self.assertEqual([], self.complaints({**wire, "src/collab/link/wire/a.cpp": '#include "collab/link/wire/a.h"\n'}))
+        (complaint,) = self.complaints({**wire, "src/collab/link/b.cpp": '#include "collab/link/wire/a.h"\n'})
+        self.assertIn('src/collab/link/b.cpp:1: "collab/link/wire/a.h" is for the sources beside it only', complaint)
+        (complaint,) = self.complaints({"src/collab/link/b.h": "#include <boost/asio/buffer.hpp>\n"})
+        self.assertIn("belongs in a source file", complaint)
+
     def test_a_wide_folder_is_refused(self):
         headers = {f"src/geometry/a{i}.h": "#pragma once\n" for i in range(40)}
         self.assertEqual([], self.complaints(headers))
