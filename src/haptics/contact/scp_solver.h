@@ -45,6 +45,10 @@ class ScpSolver final : public ContactSolver {
   const Tolerance& tolerance() const { return region_.tolerance(); }
   ContactRegion::Frame frame() const { return {origin_, settings_.tip_radius, elapsed_}; }
   Pose pose(std::uint32_t object, double elapsed) const { return scene_->pose_in(origin_, object, elapsed); }
+  /// Evaluations of formulas in a tick. A point tip's sweeps begin on surfaces, where they cost most.
+  std::uint64_t most_evaluations() const {
+    return std::uint64_t(settings_.max_evaluations) * (settings_.tip_radius > 0.0 ? 1 : 2);
+  }
   void move_origin();
   bool start(const Vector3& tip);
   bool find_room();
