@@ -46,6 +46,7 @@ struct Entries {
   DevicesOptions devices;
   ServingOptions serving;
   KeepOptions keep;
+  HeadOptions head;
   DesktopCommandOptions desktop;
   TouchOptions touch;
   std::string friction;
@@ -240,12 +241,18 @@ void add_info_options(CLI::App& info, InfoOptions& options) {
 
 void add_convert_options(CLI::App& convert, ConvertOptions& options) {
   convert.add_option("IN", options.in, kDesignFileHelp)->required()->type_name("");
-  convert.add_option("OUT", options.out, kDesignOutHelp)->required()->type_name("");
+  convert
+      .add_option("OUT", options.out,
+                  std::string(kDesignOutHelp) +
+                      "; or the link of a design on a server: IN is put into it, beside what is there")
+      ->required()
+      ->type_name("");
   add_reading_options(convert, options.reading);
   convert
       .add_option("--into", options.into,
                   "Where OUT is the link of a design on a server: put it under this object of that design")
-      ->type_name("PARENT");
+      ->type_name("PARENT")
+      ->check([](const std::string& name) { return name.empty() ? "the name of an object is empty" : ""; });
   convert.add_flag("--force", options.force, kForceHelp);
   convert.add_flag("--json", options.json, "Print what was done as JSON (fields below)");
 }
@@ -512,6 +519,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   add_study_options(study, entries.study);
   add_serving_commands(app, entries.serving);
   add_keep(app, entries.keep);
+  add_head(app, entries.head);
   const CLI::App* const named = named_subcommand(app, 1, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
   if (argc > 1 && argv[1][0] != '-' && named == nullptr && !is_design_name(argv[1]))
@@ -561,6 +569,8 @@ CommandLine parse_command_line(int argc, char** argv) {
     command_line.serving = std::move(entries.serving);
   } else if (entries.keep.list || !entries.keep.address.empty()) {
     command_line.keep = std::move(entries.keep);
+  } else if (entries.head.print_table || !entries.head.trace.empty()) {
+    command_line.head = std::move(entries.head);
   } else if (techniques.parsed()) {
     auto options = understood_techniques(entries);
     if (!options) return bad_usage(options.error().message, help);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "base/clock.h"
 #include "devices/device_profiles.h"
 #include "devices/driver/driven_device.h"
 #include "devices/evdev/back_ends.h"
@@ -15,6 +16,7 @@
 #include "devices/openhaptics/open_haptics.h"
 #include "devices/simulated/simulated_device.h"
 #include "devices/spacemouse/spnav_link.h"
+#include "devices/trace_head.h"
 #include "devices/vrpn/vrpn_back_end.h"
 #include "devices/vrpn/vrpn_head.h"
 
@@ -118,8 +120,14 @@ std::vector<DeviceEntry> list_devices() {
 }
 
 base::Result<std::unique_ptr<HeadDevice>> open_head(std::string_view name) {
+  if (name.starts_with("trace:")) {
+    auto head = TraceHead::create(std::string(address_of(name)), base::steady_nanoseconds);
+    if (!head) return tl::unexpected(head.error());
+    return std::make_unique<TraceHead>(std::move(*head));
+  }
   if (!name.starts_with("vrpn:"))
-    return base::fail(fmt::format("{}: a tracker for the head is named vrpn:NAME@HOST:PORT", name));
+    return base::fail(
+        fmt::format("{}: a tracker for the head is named vrpn:NAME@HOST:PORT or trace:FILE", name));
   auto head = VrpnHead::create(address_of(name));
   if (!head) return tl::unexpected(head.error());
   return std::move(*head);

@@ -34,7 +34,8 @@ base::Result<std::unique_ptr<PointerDevice>> open_device(std::string_view name, 
 /// not known, as that of simulated ones.
 std::string identity_of(const PointerDevice& device);
 
-/// Opens a tracker for the user's head: "vrpn:NAME@HOST:PORT". May take seconds.
+/// Opens a tracker for the user's head: "vrpn:NAME@HOST:PORT", or "trace:FILE" for a recorded motion. May
+/// take seconds.
 base::Result<std::unique_ptr<HeadDevice>> open_head(std::string_view name);
 /// Opens a device that moves the view: "gamepad" or "gamepad:WHICH". May take seconds.
 base::Result<std::unique_ptr<NavigationDevice>> open_navigation(std::string_view name);

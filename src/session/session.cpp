@@ -37,6 +37,7 @@ SessionParts::SessionParts(SessionSettings given,
       seen(std::make_shared<const render::RenderScene>()),
       addresses(settings.autosave_folder.empty() ? std::filesystem::path()
                                                  : settings.autosave_folder.parent_path() / "addresses") {
+  user.set_head_transfer(settings.head_transfer);
   for (std::size_t i = 0; i < pointers.size(); ++i) pointers[i].number = i + 1;
 }
 

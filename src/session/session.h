@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "devices/navigation_device.h"
 #include "devices/pointer_device.h"
 #include "haptics/servo/servo.h"
+#include "interaction/head/head_transfer.h"
 #include "session/representation.h"
 #include "session/session_files.h"
 #include "session/session_hands.h"
@@ -31,6 +33,8 @@ struct SessionSettings {
   std::vector<PointerConnection> connections = {};
   std::unique_ptr<devices::NavigationDevice> navigation = nullptr;  // may be null
   std::unique_ptr<devices::HeadDevice> head = nullptr;              // may be null
+  /// How far the eye goes along with the head; nothing: as far as the head does.
+  std::optional<interaction::HeadTransfer> head_transfer = interaction::HeadTransfer::of_thesis();
   haptics::ServoSettings servo = {};
   /// Further representations of the world besides those for hand and eye, each on a thread of its own.
   std::vector<std::unique_ptr<Representation>> representations = {};

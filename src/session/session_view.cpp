@@ -222,6 +222,10 @@ double SessionView::aspect() const { return parts_.aspect; }
 
 interaction::NavigationMode SessionView::navigation_mode() const { return parts_.user.mode(); }
 
+bool SessionView::has_head() const { return parts_.user.has_head(); }
+
+void SessionView::recentre_head() { parts_.user.recentre_head(); }
+
 void SessionView::set_navigation_mode(interaction::NavigationMode mode) { parts_.user.set_mode(mode); }
 
 void SessionView::set_look(const DisplayWish& look) {

@@ -5,6 +5,7 @@
 
 #include "devices/catalogue.h"
 #include "devices/spacemouse/space_mouse.h"
+#include "interaction/head/transfer_table.h"
 
 namespace icome::apps {
 
@@ -14,8 +15,16 @@ void add_device_options(CLI::App& app, DeviceChoice& choice) {
          "A device to touch with, as icome devices lists it; may be given several times (default: the mouse)")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  app.add_option("--head", choice.head, "A tracker on the user's head, such as vrpn:Tracker0@localhost")
-      ->type_name("NAME");
+  auto* const head =
+      app.add_option(
+             "--head", choice.head,
+             "A tracker on the user's head, such as vrpn:Tracker0@localhost, or trace:FILE, a recorded "
+             "motion as icome head reads it")
+          ->type_name("NAME");
+  app.add_option("--head-table", choice.head_table,
+                 "How far the view goes along with the head, as icome head --print-table prints it")
+      ->type_name("FILE.toml")
+      ->needs(head);
   app.add_option(
          "--navigation", choice.navigation,
          "What moves the view: gamepad, or another one that icome devices lists (default: a 3D mouse)")
@@ -33,6 +42,11 @@ base::Result<session::SessionSettings> session_settings(const DeviceChoice& choi
     auto head = devices::open_head(choice.head);
     if (!head) return base::fail("--head: " + head.error().message);
     settings.head = std::move(*head);
+  }
+  if (!choice.head_table.empty()) {
+    const auto table = interaction::read_transfer_file(choice.head_table);
+    if (!table) return tl::unexpected(table.error());
+    settings.head_transfer = *table;
   }
   if (!choice.navigation.empty() && choice.navigation != "spacemouse") {
     auto navigation = devices::open_navigation(choice.navigation);

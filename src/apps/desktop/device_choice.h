@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,12 +16,13 @@ namespace icome::apps {
 struct DeviceChoice {
   std::vector<std::string> pointers;  // addresses; none: the mouse is the hand
   std::string head;                   // address of a tracker on the user's head; empty: none
+  std::filesystem::path head_table;   // of the head's transfer function; empty: table 5.4 of the thesis
   std::string navigation;  // address of a device that moves the view; empty: a 3D mouse, once there is one
 
   bool is_default() const { return pointers.empty() && head.empty() && navigation.empty(); }
 };
 
-/// Adds the options --device, --head and --navigation.
+/// Adds the options --device, --head, --head-table and --navigation.
 void add_device_options(CLI::App& app, DeviceChoice& choice);
 
 /// The settings of a session with these devices, which are opened; that may take seconds. The mouse's hand is

@@ -52,6 +52,7 @@ Pose relaxed(const Pose& pose, double part) {
 UserInteraction::UserInteraction(std::unique_ptr<devices::NavigationDevice> navigation,
                                  std::unique_ptr<devices::HeadDevice> head)
     : navigation_(std::move(navigation)), head_(std::move(head)) {
+  head_motion_.set_rest(Pose::Identity());
   place();
 }
 
@@ -144,17 +145,26 @@ void UserInteraction::read_navigation(double dt, News& news) {
 
 void UserInteraction::read_head(double dt, News& news) {
   if (!head_) return;
-  Pose pose = user_from_head_;
-  const DeviceStatus status = head_->read(pose);
+  Pose user_from_head = Pose::Identity();
+  const DeviceStatus status = head_->read(user_from_head);
   note(head_->name(), head_presence_, status, dt, news);
-  if (status == DeviceStatus::Ok && is_rigid(pose)) {
-    user_from_head_ = pose;
-    auto at = user_from_head_.translation();
+  if (status == DeviceStatus::Ok && is_rigid(user_from_head)) {
+    auto at = user_from_head.translation();
     at = at.cwiseMax(-kFarthestHead).cwiseMin(kFarthestHead).eval();
+    const Pose moved = head_motion_.moved(user_from_head);
+    rest_from_head_ = head_is_transferred_ ? moved : head_motion_.newest_from_rest();
   } else if (status == DeviceStatus::Lost) {
-    user_from_head_ = relaxed(user_from_head_, 1.0 - std::exp(-dt / kRecall));
+    head_motion_.forget_samples();
+    rest_from_head_ = relaxed(rest_from_head_, 1.0 - std::exp(-dt / kRecall));
   }
 }
+
+void UserInteraction::set_head_transfer(const std::optional<interaction::HeadTransfer>& transfer) {
+  head_is_transferred_ = transfer.has_value();
+  if (transfer) head_motion_.set_transfer(*transfer);
+}
+
+void UserInteraction::recentre_head() { head_motion_.recentre(); }
 
 void UserInteraction::steer(double dt) {
   if (steering_.push.isZero(0.0) && steering_.turn.isZero(0.0)) return;
@@ -192,7 +202,7 @@ void UserInteraction::place() {
       interaction::looked_at(view_) + view_.distance * (heading.linear() * hand_offset_);
   drawn_ = view_;
   if (!head_) return;
-  Pose eye_from_head = user_from_head_;
+  Pose eye_from_head = rest_from_head_;
   eye_from_head.translation() *= view_.distance / kScreenDistance;
   drawn_.world_from_eye = view_.world_from_eye * eye_from_head;
   drawn_ = interaction::usable(drawn_);

@@ -6,6 +6,7 @@
 
 #include "devices/head_device.h"
 #include "devices/navigation_device.h"
+#include "interaction/head/head_motion.h"
 #include "interaction/navigation.h"
 
 namespace icome::session {
@@ -40,6 +41,12 @@ class UserInteraction {
   /// (`kScreenDistance`) moves the eye by the view's distance.
   const interaction::View& drawn_view() const { return drawn_; }
   static constexpr double kScreenDistance = 0.6;  // m
+
+  bool has_head() const { return head_ != nullptr; }
+  /// How far the eye goes along with the head (thesis 5.7.1); nothing: as far as the head does.
+  void set_head_transfer(const std::optional<interaction::HeadTransfer>& transfer);
+  /// From now on the eye is at the view's place where the head is now.
+  void recentre_head();
 
   /// Sets the view at once; a flight ends.
   void set_view(const interaction::View& view);
@@ -91,7 +98,9 @@ class UserInteraction {
   // The tilt of the workspaces as carry() left them, from upright and turned.
   base::Quaternion hand_tilt_ = base::Quaternion::Identity();
   bool carried_ = false;  // since the last update
-  base::Pose user_from_head_ = base::Pose::Identity();
+  interaction::HeadMotion head_motion_;
+  bool head_is_transferred_ = true;
+  base::Pose rest_from_head_ = base::Pose::Identity();  // as the eye goes along with it
   base::Pose stage_from_device_ = base::Pose::Identity();
 };
 

@@ -60,6 +60,11 @@ void ViewActions::fill(QMenu& menu) {
   shadows_ = add_switch(menu, "view.shadows", "&Shadows", {});
   menu.addSeparator();
   fill_modes(menu);
+  QAction* const recentre =
+      add_action(menu, "view.recentre_head", "&Recentre Head", QKeySequence("Ctrl+Shift+R"),
+                 [this] { session_.view().recentre_head(); });
+  recentre->setToolTip("From now on you look straight ahead where your head is now");
+  recentre->setEnabled(session_.view().has_head());
   menu.addSeparator();
   fill_themes(menu);
 }

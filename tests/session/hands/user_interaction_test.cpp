@@ -215,6 +215,7 @@ TEST(UserInteraction, AFlightGoesItsWayUnlessSomebodySteers) {
 
 TEST(UserInteraction, TheHeadMovesTheEyeAndNoPointer) {
   User user;
+  user->set_head_transfer(std::nullopt);
   user->set_view(from_aside());
   const Pose before = user->stage_from_device();
   Pose head(Eigen::AngleAxisd(0.2, Vector3::UnitY()));
@@ -226,6 +227,45 @@ TEST(UserInteraction, TheHeadMovesTheEyeAndNoPointer) {
   const Pose moved = user->view().world_from_eye.inverse() * user->drawn_view().world_from_eye;
   EXPECT_NEAR(moved.translation().x(), 0.1 * user->view().distance, 1e-12);
   EXPECT_TRUE(moved.linear().isApprox(head.linear(), 1e-12));
+}
+
+TEST(UserInteraction, NoMotionOfTheHeadMovesAPointer) {
+  User user;
+  user->set_view(from_aside());
+  user.frames(1);
+  const Pose before = user->stage_from_device();
+  base::Random random(6);
+  for (int i = 0; i < 1000; ++i) {
+    Pose head(Eigen::AngleAxisd(random.uniform(-3.0, 3.0), random.direction()));
+    head.pretranslate(random.uniform(0.0, 1.0) * random.direction());
+    user.head->put(head);
+    user.frames(1);
+    if (i % 100 == 99) user->recentre_head();
+    ASSERT_EQ(user->stage_from_device().matrix(), before.matrix());
+    ASSERT_EQ(user->view().world_from_eye.matrix(), from_aside().world_from_eye.matrix());
+    ASSERT_TRUE(user->drawn_view().world_from_eye.matrix().allFinite());
+  }
+}
+
+TEST(UserInteraction, TheEyeGoesAlongWithTheHeadByTheTableOfTheThesis) {
+  User user;
+  user->set_view(from_aside());
+  const auto right = [&] {
+    return (user->view().world_from_eye.inverse() * user->drawn_view().world_from_eye).translation().x() /
+           user->view().distance * UserInteraction::kScreenDistance;
+  };
+  Pose head = Pose::Identity();
+  head.translation().x() = 0.18;
+  user.head->put(head);
+  user.frames(5);
+  EXPECT_NEAR(right(), 0.12 + 1.5 * 0.06, 1e-12);
+  user->recentre_head();
+  user.frames(5);
+  EXPECT_NEAR(right(), 0.0, 1e-12);
+  head.translation().x() = 0.24;
+  user.head->put(head);
+  user.frames(5);
+  EXPECT_NEAR(right(), 0.06 * 0.06 / 0.12, 1e-12) << "small movements do little";
 }
 
 TEST(UserInteraction, TellsOfDevicesThatGoAndComeBack) {
