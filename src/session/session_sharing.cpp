@@ -383,13 +383,10 @@ std::vector<SessionSharing::Conflict> SessionSharing::conflicts() const {
   std::vector<Conflict> result;
   if (!parts_.shared) return result;
   const collab::Conversation& talk = parts_.shared->talk();
-  if (talk.conflicts().empty()) return result;
-  const world::World made = talk.world_as_made_here();
   for (const collab::Conflict& it : talk.conflicts()) {
     const bool is_object = it.item.kind == collab::ItemKind::Object;
-    const world::World& named = collab::is_there(made, it.item) ? made : parts_.world;
-    result.push_back({collab::called(named, it.item), is_object ? ObjectId{it.item.id} : ObjectId{},
-                      it.is_gone, it.whose == 0 ? std::string() : talk.name_of(it.whose)});
+    result.push_back({it.name, is_object ? ObjectId{it.item.id} : ObjectId{}, it.is_gone,
+                      it.whose == 0 ? std::string() : talk.name_of(it.whose)});
   }
   return result;
 }
@@ -539,6 +536,7 @@ void SessionParts::renew_people() {
     held_outlines.clear();
     for (const auto& [item, hold] : talk.holds()) {
       if (hold.holder == talk.replica().author() || item.kind != collab::ItemKind::Object) continue;
+      if (!world.find(ObjectId{item.id})) continue;  // deleted here, without a connection
       const auto person = talk.people().find(hold.holder);
       const collab::Person known =
           person == talk.people().end() ? collab::Person{hold.holder} : person->second;

@@ -113,6 +113,15 @@ class ServeTest(SharedTest):
         self.assertEqual(rows[0]["design"], "table")
         self.assertNotIn(link.split("token=")[1].split("&")[0], text)
 
+    def test_what_cannot_be_printed_is_told(self):
+        server = self.serve()
+        link = server.invite()
+        for arguments in (["invite", "table", "--store", self.store], ["edit", link, "--watch", "--json"]):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+            self.assertEqual(done.returncode, 1, arguments)
+            self.assertIn("standard output cannot be written", done.stderr)
+
     def test_an_audit_log_that_was_moved_away_begins_anew(self):
         server = self.serve()
         link = server.invite()

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "collab/server/served_design.h"
+#include "own_folder.h"
 #include "session/session_sharing.h"
 #include "session/sessions.h"
 
@@ -251,6 +252,72 @@ TEST_F(Sharing, LetsOneChooseWhereOthersChangedTheSameWhileThereWasNoConnection)
   EXPECT_EQ(bob_->world().roots().size(), 3U);
   EXPECT_EQ(y_of(leg), 2.0);
   EXPECT_EQ(y_of(dish), 0.0);
+}
+
+/// The server refuses it, and says so, as somebody is at work on it.
+TEST_F(Sharing, DeletesNothingWithoutAConnectionThatAnotherHoldsMeanwhile) {
+  const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg");
+  until_same();
+  served_.stop();
+  until([&] {
+    return has(told_ann_, SessionEvent::Kind::ServerLost) && has(told_bob_, SessionEvent::Kind::ServerLost);
+  });
+  ASSERT_TRUE(ann_->history().perform(world::DeleteObject{leg}, "Delete leg"));
+  served_.start();
+  const auto is_live = [&] { return bob_->sharing().state()->connection == ConversationState::Live; };
+  run_until(*bob_, is_live);
+  bob_->select({leg});
+  run_until(*bob_, [&] {
+    const auto people = bob_->sharing().people();
+    return std::ranges::any_of(people, [&](const auto& it) { return std::ranges::count(it.holds, leg) > 0; });
+  });
+  until([&] { return has(told_ann_, SessionEvent::Kind::Dropped); });
+  until_same();
+  EXPECT_TRUE(ann_->world().find(leg));
+}
+
+/// Whoever puts a choice off and ends the program finds it again in the next one.
+TEST_F(Sharing, KeepsAChoiceThatWasPutOffForTheNextProgram) {
+  const std::filesystem::path folder = own_folder("kept");
+  const auto open_kept = [&] {
+    SessionSettings settings = quiet_settings();
+    settings.kept_folder = folder;
+    ann_ = start(std::move(settings));
+    ann_->sharing().open(served_.link(Role::Edit), "Ann");
+    run_until(*ann_, [&] { return ann_->sharing().state().has_value(); });
+    told_ann_.clear();
+  };
+  open_kept();
+  ann_->sharing().keep(true);
+  const ObjectId leg = add_box(*ann_, world::at(0, 0, 0), "leg"),
+                 lamp = add_box(*ann_, world::at(1, 0, 0), "lamp");
+  until_same();
+  served_.stop();
+  until([&] {
+    return has(told_ann_, SessionEvent::Kind::ServerLost) && has(told_bob_, SessionEvent::Kind::ServerLost);
+  });
+  ASSERT_TRUE(ann_->history().perform(world::PlaceObject{leg, world::at(0, 1, 0)}, "Move"));
+  ASSERT_TRUE(ann_->history().perform(world::DeleteObject{lamp}, "Delete"));
+  for (const ObjectId id : {leg, lamp})
+    ASSERT_TRUE(bob_->history().perform(world::PlaceObject{id, world::at(0, 2, 0)}, "Move"));
+  served_.start();
+  run_until(*bob_, [&] { return bob_->sharing().state()->unsent == 0; });
+  until([&] { return has(told_ann_, SessionEvent::Kind::Conflicts); });
+  for (int program = 0; program < 2; ++program) {
+    const auto conflicts = ann_->sharing().conflicts();
+    ASSERT_EQ(conflicts.size(), 2U);
+    EXPECT_EQ(conflicts[0].what, "\"leg\"");
+    EXPECT_EQ(conflicts[1].what, "\"lamp\"") << "as it was called";
+    ann_.reset();
+    open_kept();
+    until([&] { return !ann_->sharing().conflicts().empty(); });
+    EXPECT_TRUE(bob_->world().find(lamp)) << "nothing is sent until somebody chooses";
+  }
+  ASSERT_TRUE(ann_->sharing().resolve({collab::Choice::Mine, collab::Choice::Theirs}));
+  until_same();
+  EXPECT_EQ(bob_->world().find(leg)->parent_from_object.translation().y(), 1.0);
+  EXPECT_EQ(bob_->world().find(lamp)->parent_from_object.translation().y(), 2.0);
+  std::filesystem::remove_all(folder);
 }
 
 /// The journal keeps what the server has not got, and nothing once it has.

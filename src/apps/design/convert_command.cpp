@@ -38,6 +38,9 @@ std::string convert_text(const ConvertOptions& options, std::size_t objects,
 
 /// Puts the design into one on a server.
 int convert_to_server(const ConvertOptions& options, StatusLine& status) {
+  if (options.into.empty() && is_remote(options.in) && shown_name(options.in) == shown_name(options.out))
+    return end_without_result({"IN and OUT are the same design, which would be in itself once more."},
+                              status);
   const auto design = read_for_person(options.in, options.reading, status);
   if (!design) return end_without_result(design.error(), status);
   const auto sent = send_model(design->world, options.out.string(), options.into, status);

@@ -95,12 +95,10 @@ std::optional<collab::KeptCopy> former_copy(const collab::KeptDesign& kept) {
 std::string conflicts_text(const collab::Conversation& talk) {
   const std::vector<collab::Conflict>& all = talk.conflicts();
   const std::size_t told = std::min<std::size_t>(5, all.size());
-  const world::World made = talk.world_as_made_here();
   std::string text;
   for (const collab::Conflict& it : std::span(all).first(told)) {
-    const world::World& named = collab::is_there(made, it.item) ? made : talk.replica().world();
     const std::string whose = it.whose == 0 ? "others" : talk.name_of(it.whose);
-    text += fmt::format("{}{}, by {}", text.empty() ? "" : "; ", collab::called(named, it.item), whose);
+    text += fmt::format("{}{}, by {}", text.empty() ? "" : "; ", it.name, whose);
   }
   return told == all.size() ? text : text + fmt::format("; and {} more", all.size() - told);
 }

@@ -79,7 +79,7 @@ class RemoteScript {
     if (!done) hear_the_rest();
     note(talk_.take_seen());
     unknown_ = talk_.replica().unacknowledged();
-    if (sequence_ == 0) sequence_ = talk_.replica().sequence();
+    if (sequence_ == 0) sequence_ = durable_;
     std::ranges::sort(refused_, {}, &RefusedLine::line);
     return done;
   }
@@ -89,8 +89,11 @@ class RemoteScript {
     for (collab::Seen& it : seen) {
       if (const auto* const durable = std::get_if<collab::SeenDurable>(&it)) {
         applied_ += durable->own.size();
+        durable_ = std::max(durable_, durable->sequence);
+        for (const std::uint64_t number : durable->own)
+          if (const auto own = ordered_.extract(number)) sequence_ = std::max(sequence_, own.mapped());
       } else if (const auto* const edit = std::get_if<collab::SeenEdit>(&it); edit && edit->number > 0) {
-        sequence_ = edit->sequence;
+        ordered_[edit->number] = edit->sequence;
       } else if (const auto* const dropped = std::get_if<collab::Dropped>(&it)) {
         const auto line = lines_.find(dropped->number);
         refused_.push_back({line == lines_.end() ? 0 : line->second, dropped->why});
@@ -196,7 +199,9 @@ class RemoteScript {
   std::vector<RefusedLine> refused_;
   std::vector<collab::Seen> seen_;
   std::size_t applied_ = 0, unknown_ = 0;
-  std::uint64_t sequence_ = 0;
+  std::map<std::uint64_t, std::uint64_t> ordered_;  // places of own edits that are not durable yet, by number
+  std::uint64_t sequence_ = 0;                      // of the last own edit that is durable
+  std::uint64_t durable_ = 0;                       // of the last edit that is
 };
 
 std::string outcome_json(const RemoteScript& script) {
@@ -219,24 +224,32 @@ std::string outcome_text(const RemoteScript& script, const EditOptions& options)
   return text;
 }
 
-/// Tells what happens until it is asked to end, or the server lets nobody in any more.
-base::Result<void> watch(collab::Connection& connection, std::vector<collab::Seen> seen, bool json) {
+/// Tells what happens until it is asked to end, nobody hears it, or the server lets nobody in any more. Gives
+/// the exit code.
+int watch(collab::Connection& connection, const std::vector<collab::Seen>& seen, bool json,
+          StatusLine& status) {
   collab::Conversation& talk = connection.talk();
   const auto tell_all = [&](const std::vector<collab::Seen>& all) {
+    std::string lines;
     for (const collab::Seen& it : all)
-      if (const std::string line = watched_line(it, talk, json); !line.empty()) print(line + "\n");
-    std::fflush(stdout);
+      if (const std::string line = watched_line(it, talk, json); !line.empty()) lines += line + "\n";
+    return lines.empty() ? 0 : print_answer(lines);
   };
-  tell_all(seen);
+  int code = tell_all(seen);
+  std::vector<collab::Seen> held;  // before this program came
+  for (const auto& [item, hold] : talk.holds()) held.emplace_back(hold);
+  if (code == 0) code = tell_all(held);
   const auto tell_new = [&] {
-    tell_all(talk.take_seen());
-    return false;
+    if (code == 0) code = tell_all(talk.take_seen());
+    return code != 0;
   };
   constexpr std::chrono::hours kForEver{24 * 365};  // it comes back by itself when the server does
   const auto worked = connection.work_until(tell_new, interrupted, kForEver);
-  tell_all(talk.take_seen());
-  if (!worked) return tl::unexpected(worked.error());
-  return {};
+  tell_new();
+  if (worked) return code;
+  status.clear();
+  tell(worked.error().message);
+  return kDesignFailed;
 }
 
 }  // namespace
@@ -259,11 +272,8 @@ int run_remote_edit(const EditOptions& options) {
     if (printed != 0) return printed;
   }
   if (options.watch)
-    if (const auto done = watch(**connection, script.take_seen(), options.json); !done) {
-      status.clear();
-      tell(done.error().message);
-      return kDesignFailed;
-    }
+    if (const int code = watch(**connection, script.take_seen(), options.json, status); code != 0)
+      return code;
   leave_design(**connection);
   return script.refused().empty() ? 0 : kDesignFailed;
 }

@@ -104,8 +104,7 @@ base::Result<std::string> invitation_link(const ServingOptions& options) {
 int run_invite(const ServingOptions& options) {
   const auto link = invitation_link(options);
   if (!link) return tell(link.error().message), kFailed;
-  print(*link + "\n");
-  return 0;
+  return print_answer(*link + "\n");
 }
 
 int run_revoke(const ServingOptions& options) {
@@ -129,7 +128,11 @@ int run_revoke(const ServingOptions& options) {
   const auto log = store->log();
   if (!log) return failed(log.error());
   if (const auto done = (*log)->revoke(id); !done) return failed(done.error());
-  tell("the link lets nobody in any more; a server that runs sends those away who came by it.");
+  tell(
+      collab::is_design_address(options.link)
+          ? "the link lets nobody in any more; a server that runs sends those away who came by it."
+          : "no link of this invitation lets anybody in any more, if there was one; a server that runs sends "
+            "those away who came by it.");
   return 0;
 }
 

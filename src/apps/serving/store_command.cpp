@@ -80,9 +80,12 @@ base::Result<int> check_designs(const collab::Store& store, bool json) {
 base::Result<int> restore_designs(const ServingOptions& options, const collab::StoreFolder& folder) {
   const auto lock = folder.lock();
   if (!lock) return tl::unexpected(lock.error());
-  const auto former = collab::restore_store(options.file, folder.designs());
-  if (!former) return tl::unexpected(former.error());
-  if (!former->empty()) tell(fmt::format("what was there is kept as {}.", former->string()));
+  const auto restored = collab::restore_store(options.file, folder.designs());
+  if (!restored) return tl::unexpected(restored.error());
+  if (!restored->former.empty())
+    tell(fmt::format("what was there is kept as {}.", restored->former.string()));
+  if (!restored->keeps_revoked)
+    tell("links that were revoked after this backup was made are good again: revoke them once more.");
   return 0;
 }
 

@@ -202,7 +202,8 @@ void Conversation::hear(Welcome& message) {
   lease_ = message.lease;
   welcome_ = message;
   settled_ = false;
-  if (asks_for_choices_ && !before_ && replica_.pending() > 0) before_ = replica_.world_of_server();
+  if (asks_for_choices_ && !before_ && replica_.pending() > 0)
+    before_ = Before{replica_.world_of_server(), replica_.sequence()};
   change_state(ConversationState::Joining, "");
   if (!message.loads) return go_live_if_caught_up();
   loads_ = true;
@@ -305,6 +306,11 @@ std::optional<KeptCopy> Conversation::keep() const {
   copy.history = history_;
   copy.role = role_;
   if (!replica_.keep_in(copy)) return std::nullopt;
+  // Until a person has chosen, the next program, too, must find what others did since.
+  if (before_) {
+    copy.world = before_->world;
+    copy.sequence = before_->sequence;
+  }
   return copy;
 }
 
@@ -318,13 +324,17 @@ void Conversation::resume(const KeptCopy& copy) {
 void Conversation::find_conflicts() {
   if (!before_) return;
   made_here_ = replica_.pending_edits();
-  conflicts_ = conflicts_of(made_here_, *before_, replica_.world_of_server());
-  for (Conflict& it : conflicts_) it.whose = replica_.last_other(it.item);
-  if (conflicts_.empty()) before_.reset();
+  conflicts_ = conflicts_of(made_here_, before_->world, replica_.world_of_server());
+  if (conflicts_.empty()) return before_.reset();
+  const world::World made = world_as_made_here();
+  for (Conflict& it : conflicts_) {
+    it.whose = replica_.last_other(it.item);
+    it.name = called(is_there(made, it.item) ? made : before_->world, it.item);
+  }
 }
 
 world::World Conversation::world_as_made_here() const {
-  world::World world = *before_;
+  world::World world = before_->world;
   for (const world::Edit& edit : made_here_) (void)apply_fitted(world, edit);
   return world;
 }

@@ -111,8 +111,6 @@ class Conversation {
   void ask_for_choices() { asks_for_choices_ = true; }
   /// The things to choose for; empty: there is nothing to choose.
   const std::vector<Conflict>& conflicts() const { return conflicts_; }
-  /// The world as it was made here, without what others did meanwhile. Precondition: there are conflicts.
-  world::World world_as_made_here() const;
   /// Does as was chosen, and goes on: one choice for each of conflicts(), in order. New things get ids of the
   /// source.
   base::Result<void> resolve(std::span<const Choice> choices, world::IdSource& ids);
@@ -176,6 +174,8 @@ class Conversation {
   void load();
   void go_live_if_caught_up();
   void find_conflicts();
+  /// The world as it was made here, without what others did meanwhile. Precondition: there is a state before.
+  world::World world_as_made_here() const;
   void change_state(ConversationState state, const std::string& why);
   void begin_anew(const base::Error& error);
   void end(const std::string& why, Parting code);
@@ -210,8 +210,12 @@ class Conversation {
   std::optional<std::int64_t> delay_;
 
   bool asks_for_choices_ = false;
-  std::optional<world::World>
-      before_;  // as the server had it when the connection was lost; own edits are pending
+  /// The design as the server had it when the connection was lost; own edits are pending.
+  struct Before {
+    world::World world;
+    std::uint64_t sequence = 0;
+  };
+  std::optional<Before> before_;        // from the next connection on, until nothing is left to choose
   std::size_t actions_before_ = 0;      // own ones, when the connection was lost
   std::vector<world::Edit> made_here_;  // of them, what was pending
   std::vector<Conflict> conflicts_;

@@ -126,7 +126,7 @@ std::vector<Conflict> conflicts_of(std::span<const world::Edit> own, const World
       const bool is_gone = !is_there(now, side.item);
       if (!is_gone && is_same(before, now, side)) continue;
       met.insert(side.item);
-      conflicts.push_back({side.item, is_gone});
+      conflicts.push_back({.item = side.item, .is_gone = is_gone});
     }
   }
   return conflicts;

@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <string>
 #include <vector>
 
 #include "collab/order/items.h"
@@ -9,6 +10,7 @@ namespace icome::collab {
 /// A thing that was changed both here, while there was no connection, and by others meanwhile.
 struct Conflict {
   Item item;
+  std::string name = {};    // as it is called here, or was before it was deleted here
   bool is_gone = false;     // others have deleted it
   std::uint32_t whose = 0;  // the author who changed it last; 0: nobody is known
 };

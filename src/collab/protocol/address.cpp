@@ -79,10 +79,13 @@ base::Result<void> read_secrets(std::string_view text, DesignAddress& address) {
     if (name == "token") {
       address.token = std::string(part);
     } else if (name == "key") {
-      if (part != kNoTls && !is_fingerprint(part))
+      std::string key(part);
+      std::ranges::transform(key, key.begin(),
+                             [](char it) { return it >= 'A' && it <= 'Z' ? char(it | 0x20) : it; });
+      if (key != kNoTls && !is_fingerprint(key))
         return base::fail(
             "the key is no fingerprint (sha256: and 64 hexadecimal digits): was the address cut off?");
-      address.fingerprint = std::string(part);
+      address.fingerprint = std::move(key);
     } else {
       return base::fail("behind '#' there are only token= and key=");
     }

@@ -1,8 +1,7 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string>
 
 namespace icome::collab {
@@ -20,23 +19,29 @@ struct AuditRow {
 };
 
 /// A file of JSON lines, each written out at once. Where it was moved away, as logrotate does, or removed, a
-/// new one begins at its place with the next row.
+/// new one begins at its place with the next row. A row that cannot be written leaves nothing of itself, and
+/// the next one that can be has a row before it that says how many were lost.
 class AuditLog {
  public:
   explicit AuditLog(std::filesystem::path path);
+  AuditLog(const AuditLog&) = delete;
+  AuditLog& operator=(const AuditLog&) = delete;
+  ~AuditLog();
 
-  bool is_open() const { return file_ != nullptr; }
+  bool is_open() const { return file_ >= 0; }
   void write(const AuditRow& row);
+  /// Rows that were not written since one was.
+  std::size_t lost() const { return lost_; }
 
  private:
-  struct Close {
-    void operator()(std::FILE* it) const { std::fclose(it); }
-  };
   void open();
+  void close();
   bool is_at_its_place() const;
+  bool append(const AuditRow& row);
 
   std::filesystem::path path_;
-  std::unique_ptr<std::FILE, Close> file_;  // null: it cannot be written
+  int file_ = -1;  // descriptor; negative: it cannot be written
+  std::size_t lost_ = 0;
 };
 
 }  // namespace icome::collab

@@ -350,9 +350,10 @@ void DesignServer::tick() {
 // ---- what administrators see
 
 HttpAnswer DesignServer::answer(std::string_view path) const {
-  if (path == "/health" && hub_.trouble().empty()) return {200, "application/json", "{\"status\":\"ok\"}\n"};
-  if (path == "/health")
-    return {503, "application/json", nlohmann::json{{"status", hub_.trouble()}}.dump() + "\n"};
+  const std::string trouble =
+      hub_.trouble().empty() && audit_.lost() > 0 ? "The audit log cannot be written." : hub_.trouble();
+  if (path == "/health" && trouble.empty()) return {200, "application/json", "{\"status\":\"ok\"}\n"};
+  if (path == "/health") return {503, "application/json", nlohmann::json{{"status", trouble}}.dump() + "\n"};
   if (path != "/metrics") return {404, "text/plain; charset=utf-8", "There are /health and /metrics.\n"};
   const HubCounters& it = hub_.counters();
   std::string text;

@@ -30,7 +30,8 @@ struct Opening {
   std::uint64_t logged_bytes = 0;
   std::string why;
   Parting code = Parting::Other;
-  std::string holder;  // another server has the design
+  std::string holder;         // another server has the design
+  std::string store_trouble;  // the whole store cannot be used; empty: it can
 };
 
 Opening open_from(OpLog& log, const std::string& design, const HubSettings& settings,
@@ -41,8 +42,12 @@ Opening open_from(OpLog& log, const std::string& design, const HubSettings& sett
     opening.code = code;
     return std::move(opening);
   };
+  const auto store_failed = [&](const base::Error& error) {
+    opening.store_trouble = error.message;
+    return failed(error, Parting::Other);
+  };
   const auto found = log.find(design);
-  if (!found) return failed(found.error(), Parting::Other);
+  if (!found) return store_failed(found.error());
   if (!*found) return failed({fmt::format("There is no design \"{}\" here.", design)}, Parting::NoDesign);
   // A lease that an earlier life of this server left behind is not carried on: its holds are gone, and their
   // fences must not be given again.
@@ -50,7 +55,7 @@ Opening open_from(OpLog& log, const std::string& design, const HubSettings& sett
   const auto lease = log.lease(design, settings.holder, settings.design_lease);
   if (!lease) {
     const auto now = log.find(design);
-    if (!now || !*now || (*now)->holder == settings.holder) return failed(lease.error(), Parting::Other);
+    if (!now || !*now || (*now)->holder == settings.holder) return store_failed(lease.error());
     opening.holder = (*now)->holder;
     return failed({"Another server has this design, and does not answer: wait some seconds."},
                   Parting::ServerStops);
@@ -78,10 +83,20 @@ Hub::Hub(HubSettings settings, TokenSigner signer, const world::GeometryFactory&
   ask_for_revoked();  // before anybody comes in
 }
 
+void Hub::note_trouble(const std::string& why) {
+  constexpr std::int64_t kTroubleTime = 10'000;  // ms
+  trouble_ = why;
+  trouble_until_ = now_ + kTroubleTime;
+}
+
+const std::string& Hub::trouble() const {
+  static const std::string kNone;
+  return now_ < trouble_until_ ? trouble_ : kNone;
+}
+
 void Hub::note(const std::string& what, const Link& link, const std::string& detail) {
   if (!audit_) return;
-  audit_(
-      {at_, what, link.address, link.invitation.design, link.name, link.invitation.id, link.author, detail});
+  audit_({at_, what, link.address, link.asks_for, link.name, link.invitation.id, link.author, detail});
 }
 
 // ---- connections
@@ -163,6 +178,7 @@ void Hub::refuse(LinkId id, Link& link, const std::string& why, Parting code) {
 
 void Hub::take_hello(LinkId id, Link& link, Hello hello) {
   link.is_checked = true;
+  link.asks_for = plain_line(hello.design, kMostNameBytes);
   link.name = hello.name = plain_line(hello.name, kMostNameBytes);
   hello.program = plain_line(hello.program, kMostNameBytes);
   if (stops_) return refuse(id, link, "The server stops.", Parting::ServerStops);
@@ -203,6 +219,7 @@ Hub::OpenDesignPointer Hub::open(const std::string& name) {
   work_.push_back({[this, design](OpLog& log) {
     const auto opening = std::make_shared<Opening>(open_from(log, design->name, settings_, factory_));
     return [this, design, opening] {
+      if (!opening->store_trouble.empty()) note_trouble(opening->store_trouble);
       if (!opening->room) return give_up(design, opening->why, opening->code, opening->holder);
       design->room = std::move(opening->room);
       design->fence = opening->fence;
@@ -225,6 +242,7 @@ void Hub::ask_to_join(const OpenDesignPointer& design, const Joining& joining) {
     const auto author =
         log.author(design->name, joining.hello.client_key, plain_line(joining.hello.name, kMostPersonBytes));
     return [this, design, joining, author] {
+      if (!author) note_trouble(author.error().message);
       if (author) return join(design, joining, *author);
       if (const auto found = links_.find(joining.link); found != links_.end())
         refuse(joining.link, found->second, author.error().message, Parting::Other);
@@ -380,13 +398,13 @@ void Hub::appended(const std::vector<OpenDesignPointer>& designs, const std::vec
                    const std::vector<std::optional<AppendError>>& errors) {
   ++appends_;
   ++counters_.commits;
-  trouble_.clear();
+  trouble_until_ = now_;
   for (std::size_t i = 0; i < designs.size(); ++i) {
     const OpenDesignPointer& design = designs[i];
     if (i < errors.size() && errors[i]) {
       ++counters_.failed_commits;
       const bool is_taken = errors[i]->problem == AppendProblem::Fenced;
-      if (!is_taken) trouble_ = errors[i]->message;
+      if (!is_taken) note_trouble(errors[i]->message);
       if (!is_taken && audit_) audit_({at_, "commit failed", {}, design->name, {}, {}, 0, trouble_});
       give_up(design,
               is_taken ? "Another server has taken this design over."

@@ -81,8 +81,9 @@ class Hub {
   bool appends() const { return appended_last_; }
 
   const HubCounters& counters() const { return counters_; }
-  /// The reason why the last commit failed; empty where it did not.
-  const std::string& trouble() const { return trouble_; }
+  /// The reason why the store could not be written within the last seconds; empty where there is none. What
+  /// keeps clients away by it lets them try again then.
+  const std::string& trouble() const;
   const Room* room(const std::string& design) const;
 
  private:
@@ -112,6 +113,7 @@ class Hub {
     std::int64_t hello_until = 0;
     OpenDesignPointer design;  // null: no good hello yet
     Invitation invitation;
+    std::string asks_for;  // the name of a design, which may not be there
     std::string name;
     std::uint32_t author = 0;
     bool is_checked = false;  // a hello has come
@@ -127,6 +129,7 @@ class Hub {
     std::uint64_t after_appends = 0;  // so many appends must be done before
   };
 
+  void note_trouble(const std::string& why);
   void take_hello(LinkId id, Link& link, Hello hello);
   void refuse(LinkId id, Link& link, const std::string& why, Parting code);
   void ask_to_join(const OpenDesignPointer& design, const Joining& joining);
@@ -172,6 +175,7 @@ class Hub {
   std::int64_t asked_for_revoked_ = -1'000'000;  // ms
   HubCounters counters_;
   std::string trouble_;
+  std::int64_t trouble_until_ = 0;  // ms
 };
 
 }  // namespace icome::collab

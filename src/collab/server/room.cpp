@@ -7,6 +7,7 @@
 #include <cassert>
 #include <utility>
 
+#include "base/shown_text.h"
 #include "collab/order/fitted_edit.h"
 #include "collab/order/world_bytes.h"
 #include "collab/protocol/message_bytes.h"
@@ -28,10 +29,27 @@ SharedBytes shared_bytes(const ServerMessage& message) {
   return std::make_shared<const std::string>(to_bytes(message));
 }
 
+base::Error missing_edit(const std::string& design, std::uint64_t sequence) {
+  return {fmt::format("{}: edit {} is missing in the store, which icome store check looks into.",
+                      base::shown_text(design), sequence)};
+}
+
+/// The next edits behind `after`, with none left out; empty only where the design ends there.
+base::Result<std::vector<LogEntry>> read_behind(OpLog& log, const DesignRow& design, std::uint64_t after) {
+  constexpr std::uint64_t kReadAtOnce = 16U << 20U;  // bytes
+  auto entries = log.read_from(design.name, after, kReadAtOnce);
+  if (!entries) return entries;
+  std::uint64_t last = after;
+  for (const LogEntry& entry : *entries)
+    if (entry.sequence != ++last) return tl::unexpected(missing_edit(design.name, last));
+  if (entries->empty() && after < design.sequence)
+    return tl::unexpected(missing_edit(design.name, after + 1));
+  return entries;
+}
+
 }  // namespace
 
 base::Result<RoomStart> read_start(OpLog& log, const DesignRow& design, std::uint64_t fence) {
-  constexpr std::uint64_t kReadAtOnce = 16U << 20U;  // bytes
   auto snapshot = log.snapshot(design.name);
   if (!snapshot) return tl::unexpected(snapshot.error());
   RoomStart start{design.name, fence, design.history, std::move(*snapshot), {}, {}};
@@ -40,7 +58,7 @@ base::Result<RoomStart> read_start(OpLog& log, const DesignRow& design, std::uin
   start.names = std::move(*names);
   std::uint64_t after = design.kept_after;
   while (true) {
-    auto entries = log.read_from(design.name, after, kReadAtOnce);
+    auto entries = read_behind(log, design, after);
     if (!entries) {
       // The edits before the snapshot only spare those who come back from loading it.
       if (!start.snapshot || after >= start.snapshot->sequence) return tl::unexpected(entries.error());

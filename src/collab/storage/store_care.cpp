@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "base/shown_text.h"
+#include "collab/protocol/address.h"
 #include "collab/storage/log_sums.h"
 #include "collab/storage/sqlite_schema.h"
 #include "io/open_file.h"
@@ -55,6 +56,36 @@ base::Result<void> add_findings_of_file(const SqliteDatabase& database, std::vec
   const auto strays = database.number("SELECT count(*) FROM pragma_foreign_key_check");
   if (!strays) return tl::unexpected(strays.error());
   if (*strays > 0) findings.push_back(fmt::format("{} rows belong to no design.", *strays));
+  return {};
+}
+
+/// Tables that are missing, and what else is there than tables, such as triggers, which would change things
+/// unasked.
+base::Result<void> add_findings_of_schema(const SqliteDatabase& database,
+                                          std::vector<std::string>& findings) {
+  for (const char* table : {"designs", "edits", "snapshots", "authors", "revoked"}) {
+    const auto count = database.number(
+        fmt::format("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '{}'", table)
+            .c_str());
+    if (!count) return tl::unexpected(count.error());
+    if (*count == 0) findings.push_back(fmt::format("The table \"{}\" is missing.", table));
+  }
+  const auto others = database.number("SELECT count(*) FROM sqlite_schema WHERE type IN ('trigger', 'view')");
+  if (!others) return tl::unexpected(others.error());
+  if (*others > 0)
+    findings.push_back(fmt::format("{} triggers or views are there that icome has not made.", *others));
+  return {};
+}
+
+base::Result<void> add_findings_of_names(const SqliteDatabase& database, std::vector<std::string>& findings) {
+  auto names = database.prepare("SELECT name FROM designs ORDER BY name");
+  if (!names) return tl::unexpected(names.error());
+  SqliteRun run = names->run();
+  auto more = run.next();
+  for (; more && *more; more = run.next())
+    if (const auto good = check_design_name(run.bytes(0)); !good)
+      findings.push_back("A design cannot be opened by its name: " + good.error().message);
+  if (!more) return tl::unexpected(more.error());
   return {};
 }
 
@@ -144,6 +175,8 @@ class CopyBeside {
   /// Copies a store, and runs `change` on the copy before it gets its last form: one file, without a log of
   /// writes.
   base::Result<void> make(const fs::path& from, const char* change);
+  /// Links of these invitations let nobody in by the copy.
+  base::Result<void> revoke(const std::vector<std::string>& invitations);
   /// Gives the copy the name of what it is a copy for.
   base::Result<void> take_place();
 
@@ -184,6 +217,18 @@ base::Result<void> CopyBeside::make(const fs::path& from, const char* change) {
   return file->sync();
 }
 
+base::Result<void> CopyBeside::revoke(const std::vector<std::string>& invitations) {
+  const auto copy = SqliteDatabase::open(beside_, SqliteDatabase::Use::Change);
+  if (!copy) return tl::unexpected(copy.error());
+  return copy->transact("BEGIN IMMEDIATE", [&]() -> base::Result<void> {
+    auto insert = copy->prepare("INSERT OR IGNORE INTO revoked (invitation) VALUES (?)");
+    if (!insert) return tl::unexpected(insert.error());
+    for (const std::string& invitation : invitations)
+      if (const auto done = insert->run(invitation).finish(); !done) return done;
+    return {};
+  });
+}
+
 base::Result<void> CopyBeside::take_place() {
   std::error_code error;
   fs::rename(beside_, path_, error);
@@ -216,6 +261,25 @@ base::Result<void> fold_unless_damaged(const fs::path& path) {
   return {};
 }
 
+/// The invitations that a store has revoked; fails where there is none that can be read.
+base::Result<std::vector<std::string>> revoked_in(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return base::fail(path.string() + ": is not there.");
+  const auto database = SqliteDatabase::open(path, SqliteDatabase::Use::Change);
+  if (!database) return tl::unexpected(database.error());
+  // Closing would bring the log of writes into the file, or drop it, also where both are damaged.
+  sqlite3_db_config(database->handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  if (const auto good = demand_store(*database); !good) return tl::unexpected(good.error());
+  auto all = database->prepare("SELECT invitation FROM revoked ORDER BY number");
+  if (!all) return tl::unexpected(all.error());
+  std::vector<std::string> revoked;
+  SqliteRun run = all->run();
+  auto more = run.next();
+  for (; more && *more; more = run.next()) revoked.push_back(run.bytes(0));
+  if (!more) return tl::unexpected(more.error());
+  return revoked;
+}
+
 /// Gives a database another name, besides its own, so that there is one at its place at any time.
 base::Result<fs::path> keep_former(const fs::path& database) {
   std::error_code error;
@@ -246,6 +310,10 @@ base::Result<std::vector<std::string>> check_store(const fs::path& path) {
   }
   const auto checked = database->transact("BEGIN", [&]() -> base::Result<void> {
     if (const auto file = add_findings_of_file(*database, findings); !file) return file;
+    const std::size_t so_far = findings.size();
+    if (const auto schema = add_findings_of_schema(*database, findings); !schema || findings.size() > so_far)
+      return schema;  // without its tables nothing else can be asked
+    if (const auto names = add_findings_of_names(*database, findings); !names) return names;
     for (const StoreRule& rule : kStoreRules)
       if (const auto kept = add_findings_of_rule(*database, rule, findings); !kept) return kept;
     return add_findings_of_sums(*database, findings);
@@ -256,15 +324,21 @@ base::Result<std::vector<std::string>> check_store(const fs::path& path) {
 
 base::Result<void> backup_store(const fs::path& database, const fs::path& to, bool may_replace) {
   std::error_code error;
+  const fs::file_type there = fs::symlink_status(to, error).type();
+  if (there != fs::file_type::not_found && there != fs::file_type::regular)
+    return base::fail(to.string() + ": is no ordinary file. Choose another name.");
+  for (const char* ending : {"", "-wal", "-shm"})
+    if (fs::equivalent(to, with_ending(database, ending), error))
+      return base::fail(to.string() + ": is a part of the store itself. Choose another name.");
   if (!may_replace && fs::exists(to, error))
     return base::fail(to.string() +
-                      ": is there already. Choose another name, or say that it may be replaced.");
+                      ": is there already. Choose another name, or have it replaced (--force).");
   CopyBeside copy(to);
   const auto made = copy.make(database, "");
   return made ? copy.take_place() : made;
 }
 
-base::Result<fs::path> restore_store(const fs::path& backup, const fs::path& database) {
+base::Result<RestoredStore> restore_store(const fs::path& backup, const fs::path& database) {
   const auto findings = check_store(backup);
   if (!findings) return tl::unexpected(findings.error());
   if (!findings->empty())
@@ -275,11 +349,16 @@ base::Result<fs::path> restore_store(const fs::path& backup, const fs::path& dat
                               "UPDATE designs SET holder = '', lease_ends = 0, lease_length = 0, history = "
                               "max(1, abs(random() >> 1))");
   if (!made) return tl::unexpected(made.error());
-  const auto kept = keep_former(database);
-  if (!kept) return kept;
-  const auto placed = copy.take_place();
-  if (!placed) return tl::unexpected(placed.error());
-  return kept;
+  RestoredStore restored;
+  if (const auto revoked = revoked_in(database)) {
+    if (const auto added = copy.revoke(*revoked); !added) return tl::unexpected(added.error());
+    restored.keeps_revoked = true;
+  }
+  auto former = keep_former(database);
+  if (!former) return tl::unexpected(former.error());
+  restored.former = std::move(*former);
+  if (const auto placed = copy.take_place(); !placed) return tl::unexpected(placed.error());
+  return restored;
 }
 
 }  // namespace icome::collab

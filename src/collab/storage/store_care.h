@@ -15,16 +15,22 @@ namespace icome::collab {
 base::Result<std::vector<std::string>> check_store(const std::filesystem::path& database);
 
 /// Copies the state of this moment into one file, which only its owner can read and which is there whole or
-/// not at all. Fails where `to` exists, unless it may be replaced.
+/// not at all. Fails where `to` exists, unless it may be replaced and is a file, and no part of the store.
 base::Result<void> backup_store(const std::filesystem::path& database, const std::filesystem::path& to,
                                 bool may_replace);
 
-/// Checks a backup and puts a copy of it in the place of a store's database, at once; where there was a
-/// database, it is kept under another name, which is given (else empty). Leases end, and every design begins
-/// another history (DesignRow::history). Fails, changing nothing, where the backup has faults or somebody
-/// uses the store. Precondition: the caller has locked the folder of the store, so that no server begins
-/// meanwhile.
-base::Result<std::filesystem::path> restore_store(const std::filesystem::path& backup,
-                                                  const std::filesystem::path& database);
+/// What became of the store that was there before a backup was restored.
+struct RestoredStore {
+  std::filesystem::path former = {};  // its database, under another name; empty: there was none
+  bool keeps_revoked = false;         // the links that it revoked stay so
+};
+
+/// Checks a backup and puts a copy of it in the place of a store's database, at once; a database that was
+/// there is kept under another name, and links that it revoked let nobody in. Leases end, and every design
+/// begins another history (DesignRow::history). Fails, changing nothing, where the backup has faults or
+/// somebody uses the store. Precondition: the caller has locked the folder of the store, so that no server
+/// begins meanwhile.
+base::Result<RestoredStore> restore_store(const std::filesystem::path& backup,
+                                          const std::filesystem::path& database);
 
 }  // namespace icome::collab

@@ -80,6 +80,8 @@ base::Result<StoreFolder> StoreFolder::make(const std::filesystem::path& path) {
   std::filesystem::path whole = std::filesystem::absolute(path, error).lexically_normal();
   if (!whole.has_filename()) whole = whole.parent_path();  // of "store/"
   if (whole.has_parent_path()) std::filesystem::create_directories(whole.parent_path(), error);
+  if (error)
+    return base::fail(fmt::format("{}: this folder cannot be made ({}).", path.string(), error.message()));
   constexpr mode_t kOnlyMine = 0700;
   if (::mkdir(whole.c_str(), kOnlyMine) == 0)
     io::sync_folder_of(whole);

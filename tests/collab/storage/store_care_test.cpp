@@ -1,6 +1,7 @@
 #include "collab/storage/store_care.h"
 
 #include <sqlite3.h>
+#include <sys/stat.h>
 
 #include "collab/server/room.h"
 #include "collab/storage/sample_log.h"
@@ -98,6 +99,9 @@ INSTANTIATE_TEST_SUITE_P(
                         "a backup."},
                     PlantedFault{"UPDATE authors SET last_number = 49",
                                  "a: an edit of author 1 is newer than what was noted for that author."},
+                    PlantedFault{"DROP TABLE revoked", "The table \"revoked\" is missing."},
+                    PlantedFault{"CREATE TRIGGER t AFTER INSERT ON edits BEGIN DELETE FROM edits; END",
+                                 "1 triggers or views are there that icome has not made."},
                     PlantedFault{"INSERT INTO edits VALUES (7, 1, 1, 1, 1, x'00', NULL)",
                                  "1 rows belong to no design."}));
 
@@ -142,6 +146,19 @@ TEST_F(StoreCareTest, DamageBeforeASnapshotKeepsNobodyFromTheDesign) {
             "a: the edit 11 is not what was written: the store is damaged. Restore a backup.");
 }
 
+TEST_F(StoreCareTest, NoDesignIsReadOfWhichEditsAreMissingAtEitherEnd) {
+  make();
+  SqliteOpLog log = good(SqliteOpLog::open(path_));
+  const auto start = [&] { return read_start(log, good(log.find("a")).value(), 1); };
+  change("DELETE FROM edits WHERE sequence = 6");
+  EXPECT_EQ(good(start()).entries, sample_entries(10, 40, 300)) << "the snapshot stands for it";
+  change("DELETE FROM edits WHERE sequence > 40");
+  EXPECT_EQ(sentence_of(start()), "a: edit 41 is missing in the store, which icome store check looks into.");
+  change("DELETE FROM edits WHERE sequence > 30");
+  change("UPDATE designs SET sequence = 30 WHERE id = 1; DELETE FROM edits WHERE sequence BETWEEN 11 AND 12");
+  EXPECT_EQ(sentence_of(start()), "a: edit 11 is missing in the store, which icome store check looks into.");
+}
+
 TEST_F(StoreCareTest, TakesAStoreFromBeforeThereWereSums) {
   make();
   change(
@@ -184,13 +201,30 @@ TEST_F(StoreCareTest, OverwritesABackupOnlyWhenTold) {
   make();
   folder_.write("backup.sqlite", "precious");
   EXPECT_EQ(sentence_of(backup_store(path_, backup_, false)),
-            backup_.string() + ": is there already. Choose another name, or say that it may be replaced.");
+            backup_.string() + ": is there already. Choose another name, or have it replaced (--force).");
   EXPECT_EQ(bytes_in(backup_), "precious");
   good(backup_store(path_, backup_, true));
   EXPECT_EQ(good(check_store(backup_)), std::vector<std::string>{});
   EXPECT_FALSE(backup_store(folder_.path() / "missing", folder_.path() / "other", false));
   EXPECT_FALSE(backup_store(path_, folder_.path() / "no folder" / "other", false));
   EXPECT_EQ(files(), 2U);
+}
+
+TEST_F(StoreCareTest, OverwritesNothingButFilesWithABackup) {
+  make();
+  const fs::path link = folder_.path() / "link", pipe = folder_.path() / "pipe";
+  fs::create_symlink("elsewhere", link);
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const fs::path& to : {link, pipe, folder_.path()})
+    EXPECT_EQ(sentence_of(backup_store(path_, to, true)),
+              to.string() + ": is no ordinary file. Choose another name.");
+  SqliteOpLog serving = good(SqliteOpLog::open(path_));
+  good(serving.create("c"));
+  for (const char* ending : {"", "-wal", "-shm"})
+    EXPECT_NE(sentence_of(backup_store(path_, path_.string() + ending, true)).find("is a part of the store"),
+              std::string::npos);
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
 TEST_F(StoreCareTest, RestoresWithAnotherHistory) {
@@ -203,7 +237,7 @@ TEST_F(StoreCareTest, RestoresWithAnotherHistory) {
     const std::uint64_t fence = good(log.lease("a", "server", 60'000)).fence;
     ASSERT_FALSE(append_to(log, "a", 50, fence, sample_entries(50, 5, 300)));
   }
-  const fs::path kept = good(restore_store(backup_, path_));
+  const fs::path kept = good(restore_store(backup_, path_)).former;
   EXPECT_EQ(kept, path_.string() + ".before-restore");
   SqliteOpLog log = good(SqliteOpLog::open(path_));
   EXPECT_EQ(good(log.read_from("a", 5, 100'000)), sample_entries(5, 45, 300));
@@ -214,11 +248,23 @@ TEST_F(StoreCareTest, RestoresWithAnotherHistory) {
   EXPECT_EQ(good(former.find("a")).value().sequence, 55U);
 }
 
+TEST_F(StoreCareTest, LinksThatWereRevokedStaySoWhenAnOlderBackupIsRestored) {
+  make();
+  good(good(SqliteOpLog::open(path_)).revoke("early"));
+  good(backup_store(path_, backup_, false));
+  for (const char* id : {"late", "later"}) good(good(SqliteOpLog::open(path_)).revoke(id));
+  EXPECT_TRUE(good(restore_store(backup_, path_)).keeps_revoked);
+  EXPECT_EQ(good(good(SqliteOpLog::open(path_)).revoked()),
+            (std::vector<std::string>{"early", "late", "later"}));
+}
+
 TEST_F(StoreCareTest, RestoresWhereNothingIsLeft) {
   make();
   good(backup_store(path_, backup_, false));
   fs::remove(path_);
-  EXPECT_EQ(good(restore_store(backup_, path_)), "");
+  const RestoredStore restored = good(restore_store(backup_, path_));
+  EXPECT_EQ(restored.former, "");
+  EXPECT_FALSE(restored.keeps_revoked);
   EXPECT_EQ(good(good(SqliteOpLog::open(path_)).find("a")).value().sequence, 50U);
 }
 
@@ -228,13 +274,13 @@ TEST_F(StoreCareTest, RestoresOverDamage) {
   const std::string damaged(5 * 4096, 'x');
   folder_.write("designs.sqlite", damaged);
   folder_.write("designs.sqlite-wal", damaged);
-  const fs::path kept = good(restore_store(backup_, path_));
+  const fs::path kept = good(restore_store(backup_, path_)).former;
   EXPECT_EQ(bytes_in(kept), damaged);
   EXPECT_EQ(bytes_in(kept.string() + "-wal"), damaged);
   EXPECT_FALSE(fs::exists(path_.string() + "-wal"));
   EXPECT_EQ(good(check_store(path_)), std::vector<std::string>{});
   spoil(1);
-  EXPECT_EQ(good(restore_store(backup_, path_)), path_.string() + ".before-restore-2");
+  EXPECT_EQ(good(restore_store(backup_, path_)).former, path_.string() + ".before-restore-2");
 }
 
 TEST_F(StoreCareTest, RestoresNothingThatIsDamagedOrInUse) {
