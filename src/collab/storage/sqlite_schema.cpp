@@ -11,7 +11,21 @@ namespace {
 
 constexpr std::int64_t kStoreApplication =
     0x49434f4d;  // "ICOM", by which programs such as file(1) tell databases
-constexpr std::int64_t kStoreVersion = 2;
+constexpr std::int64_t kStoreVersion = 3;
+
+// Edits have rows with numbers of their own (no WITHOUT ROWID): long ones would lie on the way to all others.
+constexpr const char* kEditsTable = R"(
+CREATE TABLE edits (
+  design INTEGER NOT NULL REFERENCES designs (id),
+  sequence INTEGER NOT NULL,
+  author INTEGER NOT NULL,
+  number INTEGER NOT NULL,
+  at INTEGER NOT NULL,
+  edit BLOB NOT NULL,
+  sum INTEGER,
+  PRIMARY KEY (design, sequence)
+) STRICT;
+)";
 
 // A design's row has, besides what is its own, what could be had from its edits: it is read for every append.
 constexpr const char* kMakeTables = R"(
@@ -28,16 +42,6 @@ CREATE TABLE designs (
   lease_ends INTEGER NOT NULL DEFAULT 0,
   lease_length INTEGER NOT NULL DEFAULT 0
 ) STRICT;
-CREATE TABLE edits (
-  design INTEGER NOT NULL REFERENCES designs (id),
-  sequence INTEGER NOT NULL,
-  author INTEGER NOT NULL,
-  number INTEGER NOT NULL,
-  at INTEGER NOT NULL,
-  edit BLOB NOT NULL,
-  sum INTEGER,
-  PRIMARY KEY (design, sequence)
-) STRICT, WITHOUT ROWID;
 CREATE TABLE snapshots (
   design INTEGER PRIMARY KEY REFERENCES designs (id),
   sequence INTEGER NOT NULL,
@@ -60,11 +64,16 @@ CREATE TABLE revoked (
 )";
 
 // Version 1 had no sums, so that its edits and snapshots are believed as they are, and no names of authors.
-constexpr const char* kUpgradeSqlite = R"(
+constexpr const char* kToVersion2 = R"(
 ALTER TABLE edits ADD COLUMN sum INTEGER;
 ALTER TABLE snapshots ADD COLUMN sum INTEGER;
 ALTER TABLE authors ADD COLUMN name TEXT NOT NULL DEFAULT '';
-PRAGMA user_version = 2;
+)";
+
+constexpr const char* kMoveEdits = R"(
+INSERT INTO edits SELECT design, sequence, author, number, at, edit, sum FROM edits_before;
+DROP TABLE edits_before;
+PRAGMA user_version = 3;
 )";
 
 struct StoreMarks {
@@ -100,7 +109,8 @@ base::Result<void> make_tables(const SqliteDatabase& database) {
     const auto marks = marks_of(database);
     if (!marks) return tl::unexpected(marks.error());
     if (!marks->is_empty()) return judge_marks(*marks, database);  // another process was faster
-    if (const auto made = database.execute(kMakeTables); !made) return made;
+    for (const char* tables : {kMakeTables, kEditsTable})
+      if (const auto made = database.execute(tables); !made) return made;
     const std::string mark =
         fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kStoreApplication, kStoreVersion);
     return database.execute(mark.c_str());
@@ -109,10 +119,14 @@ base::Result<void> make_tables(const SqliteDatabase& database) {
 
 base::Result<void> bring_up_to_date(const SqliteDatabase& database) {
   return database.transact("BEGIN IMMEDIATE", [&]() -> base::Result<void> {
-    const auto has = has_sums(database);
-    if (!has) return tl::unexpected(has.error());
-    return *has ? base::Result<void>()
-                : database.execute(kUpgradeSqlite);  // another process may have been faster
+    const auto version = database.number("PRAGMA user_version");
+    if (!version) return tl::unexpected(version.error());
+    if (*version >= kStoreVersion) return {};  // another process was faster
+    if (*version < 2)
+      if (const auto done = database.execute(kToVersion2); !done) return done;
+    for (const char* step : {"ALTER TABLE edits RENAME TO edits_before", kEditsTable, kMoveEdits})
+      if (const auto done = database.execute(step); !done) return done;
+    return {};
   });
 }
 

@@ -111,10 +111,10 @@ TEST_F(SqliteOpLogTest, CanBeReadByItsOwnerOnly) {
 
 TEST_F(SqliteOpLogTest, RefusesANewerVersion) {
   (void)opened();
-  meddle(path_, "PRAGMA user_version = 3");
+  meddle(path_, "PRAGMA user_version = 4");
   EXPECT_EQ(opening_sentence(), path_.string() +
-                                    ": was written by a newer version of icome (store version 3, this "
-                                    "one knows 2). Use that version.");
+                                    ": was written by a newer version of icome (store version 4, this "
+                                    "one knows 3). Use that version.");
 }
 
 TEST_F(SqliteOpLogTest, RefusesOtherProgramsDatabases) {

@@ -177,6 +177,23 @@ TEST_F(StoreCareTest, TakesAStoreFromBeforeThereWereSums) {
   EXPECT_EQ(good(check_store(path_)).size(), 1U) << "only what came later has a sum";
 }
 
+TEST_F(StoreCareTest, TakesAStoreInWhichLongEditsLayOnTheWayToOthers) {
+  make();
+  change(
+      "ALTER TABLE edits RENAME TO later; CREATE TABLE edits (design INTEGER NOT NULL REFERENCES designs "
+      "(id), "
+      "sequence INTEGER NOT NULL, author INTEGER NOT NULL, number INTEGER NOT NULL, at INTEGER NOT NULL, "
+      "edit "
+      "BLOB NOT NULL, sum INTEGER, PRIMARY KEY (design, sequence)) STRICT, WITHOUT ROWID; INSERT INTO edits "
+      "SELECT * FROM later; DROP TABLE later; PRAGMA user_version = 2");
+  EXPECT_EQ(good(check_store(path_)), std::vector<std::string>{});
+  SqliteOpLog log = good(SqliteOpLog::open(path_));
+  EXPECT_EQ(good(log.read_from("a", 5, 100'000)), sample_entries(5, 45, 300));
+  const std::uint64_t fence = good(log.lease("a", "server", 60'000)).fence;
+  ASSERT_FALSE(append_to(log, "a", 50, fence, sample_entries(50, 1, 300)));
+  EXPECT_EQ(good(check_store(path_)), std::vector<std::string>{});
+}
+
 TEST_F(StoreCareTest, FindsAFileThatIsCutShort) {
   make(200);
   fs::resize_file(path_, fs::file_size(path_) - 3 * 4096);
