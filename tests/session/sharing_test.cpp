@@ -308,6 +308,7 @@ TEST_F(Sharing, KeepsAChoiceThatWasPutOffForTheNextProgram) {
     ASSERT_EQ(conflicts.size(), 2U);
     EXPECT_EQ(conflicts[0].what, "\"leg\"");
     EXPECT_EQ(conflicts[1].what, "\"lamp\"") << "as it was called";
+    ann_->files().close();  // which writes the copy
     ann_.reset();
     open_kept();
     until([&] { return !ann_->sharing().conflicts().empty(); });
