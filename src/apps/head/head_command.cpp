@@ -30,18 +30,15 @@ constexpr const char* kHeadNotes =
     "  icome head --print-table > mine.toml        a table to edit\n"
     "  icome head trace.txt --out view.csv --table mine.toml --json\n"
     "\n"
-    "TRACE has rows t x y z qx qy qz qw (s, m, a quaternion), with blanks or commas between; lines that "
-    "begin\n"
-    "with # are passed over. The head looks along -z, y is up, and the first pose is the one at rest. Each "
-    "row\n"
-    "of VIEW.csv (t,x,y,z,qx,qy,qz,qw) is the movement of the view from where it is at rest, in the frame "
-    "of\n"
-    "the head at rest: the mean of the last five samples, with each move along and turn about x, y and z\n"
-    "(taken apart as turns about y, then x, then z) through the transfer function of its axis.\n"
+    "TRACE has rows t x y z qx qy qz qw (s, m, a quaternion), with blanks or commas between; lines\n"
+    "that begin with # are passed over. The head looks along -z, y is up, and the first pose is the\n"
+    "one at rest. Each row of VIEW.csv (t,x,y,z,qx,qy,qz,qw) is the movement of the view from rest, in\n"
+    "the frame of the head at rest: the mean of the last five samples, with each move along and turn\n"
+    "about x, y and z (taken apart as turns about y, then x, then z) through the transfer function of\n"
+    "its axis.\n"
     "\n"
-    "JSON: {trace, out, samples, seconds, rate_hz, head: {move_m: [x,y,z], turn_deg: [x,y,z]}, view: ...}, "
-    "the\n"
-    "most that head and view move and turn.";
+    "JSON: {trace, out, samples, seconds, rate_hz, head: {move_m: [x,y,z], turn_deg: [x,y,z]},\n"
+    "view: ...}, the most that head and view move and turn.";
 
 constexpr std::uint64_t kLongestTrace = 1ULL << 30U;  // bytes
 constexpr std::size_t kRowsAtOnce = 4096;             // between two looks at Ctrl-C

@@ -350,10 +350,12 @@ void DesignServer::tick() {
 // ---- what administrators see
 
 HttpAnswer DesignServer::answer(std::string_view path) const {
-  const std::string trouble =
-      hub_.trouble().empty() && audit_.lost() > 0 ? "The audit log cannot be written." : hub_.trouble();
-  if (path == "/health" && trouble.empty()) return {200, "application/json", "{\"status\":\"ok\"}\n"};
-  if (path == "/health") return {503, "application/json", nlohmann::json{{"status", trouble}}.dump() + "\n"};
+  if (path == "/health" && hub_.trouble().empty()) return {200, "application/json", "{\"status\":\"ok\"}\n"};
+  if (path == "/health") {
+    const nlohmann::json status{{"status", hub_.trouble()}};
+    return {503, "application/json",
+            status.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"};
+  }
   if (path != "/metrics") return {404, "text/plain; charset=utf-8", "There are /health and /metrics.\n"};
   const HubCounters& it = hub_.counters();
   std::string text;
@@ -372,6 +374,8 @@ HttpAnswer DesignServer::answer(std::string_view path) const {
   add("commits_total", "counter", "Commits of the log.", it.commits);
   add("commits_failed_total", "counter", "Appends that the log refused.", it.failed_commits);
   add("edits_committed_total", "counter", "Edits that are durable.", it.committed_edits);
+  add("audit_rows_lost", "gauge", "Rows of the audit log that could not be written since one could.",
+      audit_.lost());
   add("uptime_seconds", "gauge", "Since the server began.",
       std::uint64_t((steady_milliseconds() - started_) / 1'000));
   return {200, "text/plain; version=0.0.4; charset=utf-8", std::move(text)};

@@ -19,7 +19,7 @@ base::Result<std::vector<std::string>> check_store(const std::filesystem::path& 
 base::Result<void> backup_store(const std::filesystem::path& database, const std::filesystem::path& to,
                                 bool may_replace);
 
-/// What became of the store that was there before a backup was restored.
+/// The store that was there before a backup was restored, as it is now.
 struct RestoredStore {
   std::filesystem::path former = {};  // its database, under another name; empty: there was none
   bool keeps_revoked = false;         // the links that it revoked stay so

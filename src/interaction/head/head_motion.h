@@ -17,7 +17,7 @@ class HeadMotion {
  public:
   explicit HeadMotion(const HeadTransfer& transfer = HeadTransfer::of_thesis()) : transfer_(transfer) {}
 
-  /// Where the head is at rest; if it is not set before, the first pose is.
+  /// Sets the pose of the head at rest. Without a call the first pose is taken for it.
   void set_rest(const base::Pose& tracker_from_rest);
   /// Takes a sample, and gives the movement of the view.
   base::Pose moved(const base::Pose& tracker_from_head);

@@ -8,7 +8,7 @@ namespace icome::interaction {
 
 constexpr double kDegree = std::numbers::pi / 180.0;  // rad
 
-/// How much of a movement of the head along or about one axis the view makes (thesis 5.7.1, corrected). Knees
+/// Maps a movement of the head along or about one axis to that of the view (thesis 5.7.1, corrected). Knees
 /// in m or rad, 0 <= knee1 <= knee2; slopes are not negative.
 struct TransferAxis {
   double knee1 = 0.0;  // up to here quadratic, so that small movements do little

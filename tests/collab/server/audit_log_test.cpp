@@ -13,7 +13,7 @@
 namespace icome::collab {
 namespace {
 
-/// What happened, by row; fails where a line is no JSON.
+/// The `what` of each row; tells of a line that is no JSON.
 std::vector<std::string> rows_in(const std::filesystem::path& path) {
   std::vector<std::string> rows;
   std::ifstream file(path);

@@ -46,7 +46,7 @@ class Wire {
   Executor get_executor() noexcept { return socket_.get_executor(); }
   Socket& socket() { return socket_; }
   ByteChannel& channel() { return channel_; }
-  /// What keeps this wire alive: set before anything else.
+  /// Sets the owner that keeps this wire alive. To be called before anything else.
   void belong_to(std::weak_ptr<void> owner) { owner_ = std::move(owner); }
   void start(std::chrono::milliseconds patience);
   void close() {
