@@ -1,8 +1,16 @@
 #pragma once
-#include "study/definition/key_reader.h"
+#include "io/key_reader.h"
 #include "study/definition/study.h"
 
 namespace icome::study {
+
+using io::is_id;
+using io::KeyReader;
+using io::Problems;
+using io::TomlMember;
+using io::TomlNode;
+template <typename Meaning>
+using Words = io::Words<Meaning>;
 
 // The parts of a study file, for read_study().
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "base/near_names.h"
-#include "study/definition/key_reader.h"
+#include "io/key_reader.h"
 #include "study/study_texts.h"
 
 namespace icome::study {
@@ -40,7 +40,8 @@ std::vector<std::string> template_names() {
 
 base::Result<std::string> study_template(std::string_view template_name, const std::string& name) {
   for (const StudyTemplate& study : kTemplates)
-    if (study.name == template_name) return is_id(name) ? renamed(study.text, name) : std::string(study.text);
+    if (study.name == template_name)
+      return io::is_id(name) ? renamed(study.text, name) : std::string(study.text);
   return base::fail(fmt::format("there is no template '{}'{}", template_name,
                                 base::suggestion(template_name, template_names())));
 }

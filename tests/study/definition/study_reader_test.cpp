@@ -163,7 +163,7 @@ TEST(StudyReader, MissingTranslationsAreTold) {
       std::string::npos)
       << error_of(two);
   EXPECT_EQ(error_of(with("\"Small\"", "{ en = \"Small\", nl = \" \" }")),
-            "s.toml:3:25: the study: title has a text in 'nl', which is none of the languages of the study.");
+            "s.toml:3:25: the study: title has a text in 'nl', which is none of the languages of the file.");
 }
 
 TEST(StudyReader, TooManyConditionsForAllOrdersAreTold) {

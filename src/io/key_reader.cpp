@@ -1,11 +1,11 @@
-#include "study/definition/key_reader.h"
+#include "io/key_reader.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace icome::study {
+namespace icome::io {
 namespace {
 
 constexpr std::size_t kMostTold = 50;
@@ -108,12 +108,12 @@ std::string KeyReader::plain(const std::string& key) {
   return node == nullptr ? std::string() : node->text;
 }
 
-void KeyReader::read_translations(const TomlNode& node, const std::string& key, Text& text) {
+void KeyReader::read_translations(const TomlNode& node, const std::string& key, Translations& text) {
   for (const TomlMember& member : node.members) {
     const auto found = std::ranges::find(languages_, member.key);
     if (found == languages_.end()) {
       add_problem(member.place, key,
-                  fmt::format("has a text in '{}', which is none of the languages of the study", member.key));
+                  fmt::format("has a text in '{}', which is none of the languages of the file", member.key));
     } else if (member.value.kind != TomlNode::Kind::String) {
       add_problem(
           member.value.place, key,
@@ -126,12 +126,12 @@ void KeyReader::read_translations(const TomlNode& node, const std::string& key, 
     if (is_blank(text[i])) add_problem(node.place, key, fmt::format("has no text in '{}'", languages_[i]));
 }
 
-Text KeyReader::text(const std::string& key, bool required) {
-  Text text(languages_.size());
+Translations KeyReader::text(const std::string& key, bool required) {
+  Translations text(languages_.size());
   const TomlNode* const node = take(key);
   if (node == nullptr) {
     if (required) require(key, fmt::format("{} = {{ {} = \"...\" }}", key, languages_.front()));
-    return required ? text : Text();
+    return required ? text : Translations();
   }
   if (node->kind == TomlNode::Kind::Table) {
     read_translations(*node, key, text);
@@ -247,4 +247,4 @@ void KeyReader::finish() {
   }
 }
 
-}  // namespace icome::study
+}  // namespace icome::io

@@ -8,14 +8,13 @@
 #include "base/near_names.h"
 #include "base/vector.h"
 #include "io/toml_tree.h"
-#include "study/definition/study.h"
 
-namespace icome::study {
+namespace icome::io {
 
-using io::TomlMember;
-using io::TomlNode;
+/// A text in each language of a file, in the order of its languages.
+using Translations = std::vector<std::string>;
 
-/// The problems of a study file, with their places.
+/// The problems of a file of settings, with their places.
 class Problems {
  public:
   void add(Place place, std::string sentence) { all_.push_back({place, std::move(sentence)}); }
@@ -38,7 +37,7 @@ using Words = std::vector<std::pair<std::string_view, Meaning>>;
 /// Can the text name a column of a log: is it letters, digits, - and _, at most 64?
 bool is_id(std::string_view text);
 
-/// Reads values of one table of a study file by key. A value that is missing, of another type or out of
+/// Reads values of one table of a TOML file by key. A value that is missing, of another type or out of
 /// its range is added to the problems, and something harmless returned. The tree must outlive this.
 class KeyReader {
  public:
@@ -58,7 +57,8 @@ class KeyReader {
   std::string reference(const std::string& key);
   /// A text in one language.
   std::string plain(const std::string& key);
-  Text text(const std::string& key, bool required);
+  /// A text in every language; empty if there is no such key and it is not required.
+  Translations text(const std::string& key, bool required);
   double number(const std::string& key, double otherwise, double least, double most);
   int whole(const std::string& key, int otherwise, int least, int most);
   bool flag(const std::string& key, bool otherwise);
@@ -84,7 +84,7 @@ class KeyReader {
   const TomlNode* take(const std::string& key, TomlNode::Kind kind, const char* wanted);
   void add_problem(Place place, const std::string& key, const std::string& sentence);
   std::string checked_id(const TomlNode& node, const std::string& key);
-  void read_translations(const TomlNode& node, const std::string& key, Text& text);
+  void read_translations(const TomlNode& node, const std::string& key, Translations& text);
 
   const TomlNode& table_;
   std::string what_;  // "independent variable 'menu'"
@@ -107,4 +107,4 @@ Meaning KeyReader::word(const std::string& key, const Words<Meaning>& words, Mea
   return otherwise;
 }
 
-}  // namespace icome::study
+}  // namespace icome::io
