@@ -47,6 +47,7 @@ struct Entries {
   ServingOptions serving;
   KeepOptions keep;
   HeadOptions head;
+  MenuOptions menu;
   DesktopCommandOptions desktop;
   TouchOptions touch;
   std::string friction;
@@ -520,6 +521,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   add_serving_commands(app, entries.serving);
   add_keep(app, entries.keep);
   add_head(app, entries.head);
+  add_menu(app, entries.menu);
   const CLI::App* const named = named_subcommand(app, 1, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
   if (argc > 1 && argv[1][0] != '-' && named == nullptr && !is_design_name(argv[1]))
@@ -571,6 +573,8 @@ CommandLine parse_command_line(int argc, char** argv) {
     command_line.keep = std::move(entries.keep);
   } else if (entries.head.print_table || !entries.head.trace.empty()) {
     command_line.head = std::move(entries.head);
+  } else if (!entries.menu.file.empty()) {
+    command_line.menu = std::move(entries.menu);
   } else if (techniques.parsed()) {
     auto options = understood_techniques(entries);
     if (!options) return bad_usage(options.error().message, help);

@@ -7,6 +7,7 @@
 #include "apps/desktop/desktop_options.h"
 #include "apps/devices/devices_options.h"
 #include "apps/head/head_command.h"
+#include "apps/menu/menu_command.h"
 #include "apps/remote/keep_command.h"
 #include "apps/serving/serving_options.h"
 #include "apps/stats/stats_options.h"
@@ -32,6 +33,7 @@ struct CommandLine {
   std::optional<ServingOptions> serving;
   std::optional<KeepOptions> keep;
   std::optional<HeadOptions> head;
+  std::optional<MenuOptions> menu;
   std::optional<DesktopCommandOptions> desktop;
   int exit_code = 0;  // to return when none is set: help or version were printed, or an error
 };

@@ -10,6 +10,7 @@
 #include "apps/desktop/desktop_command.h"
 #include "apps/devices/devices_command.h"
 #include "apps/head/head_command.h"
+#include "apps/menu/menu_command.h"
 #include "apps/remote/keep_command.h"
 #include "apps/serving/serving_command.h"
 #include "apps/stats/stats_command.h"
@@ -33,6 +34,7 @@ int main(int argc, char** argv) {
     if (command_line.devices) return icome::apps::run_devices(*command_line.devices);
     if (command_line.serving) return icome::apps::run_serving(*command_line.serving);
     if (command_line.head) return icome::apps::run_head(*command_line.head);
+    if (command_line.menu) return icome::apps::run_menu(*command_line.menu);
     if (command_line.keep) return icome::apps::run_keep(*command_line.keep);
     if (command_line.desktop) return icome::apps::run_desktop_window(argc, argv, *command_line.desktop);
     return command_line.exit_code;

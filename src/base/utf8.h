@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace icome::base {
 
@@ -37,6 +38,21 @@ inline std::string as_utf8(std::string_view text) {
     text.remove_prefix(length > 0 ? length : 1);
   }
   return result;
+}
+
+/// The letters of valid UTF-8 text.
+inline std::vector<char32_t> letters_of(std::string_view utf8) {
+  std::vector<char32_t> letters;
+  for (std::size_t i = 0; i < utf8.size();) {
+    const auto first = static_cast<unsigned char>(utf8[i]);
+    const std::size_t more = first < 0xC0 ? 0 : first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;
+    char32_t letter = more == 0 ? first : first & (0x3FU >> more);
+    for (std::size_t k = 1; k <= more && i + k < utf8.size(); ++k)
+      letter = (letter << 6U) | (static_cast<unsigned char>(utf8[i + k]) & 0x3FU);
+    letters.push_back(letter);
+    i += 1 + more;
+  }
+  return letters;
 }
 
 }  // namespace icome::base

@@ -28,6 +28,11 @@ base::Result<std::string> read_file(const std::string& path) {
   return text;
 }
 
+/// Does the first line name the button's column, too?
+bool names_button(std::string_view text) {
+  return text.substr(0, text.find('\n')).find(",b") != std::string_view::npos;
+}
+
 }  // namespace
 
 base::Result<PathPlayer> PathPlayer::create(const std::string& path, DeviceInfo info) {
@@ -46,9 +51,12 @@ base::Result<PathPlayer> PathPlayer::parse(std::string_view text, const std::str
       return base::fail(fmt::format("t must increase, but {} follows {}", row[0], player.times_.back()));
     player.times_.push_back(row[0]);
     player.positions_.emplace_back(row[1], row[2], row[3]);
+    if (row.size() < 5) return {};
+    if (row[4] != 0.0 && row[4] != 1.0) return base::fail("b, the button, is 0 (up) or 1 (down)");
+    player.buttons_.push_back(row[4] == 1.0);
     return {};
   };
-  if (const auto read = io::read_number_rows(text, name, "txyz", add); !read)
+  if (const auto read = io::read_number_rows(text, name, names_button(text) ? "txyzb" : "txyz", add); !read)
     return tl::unexpected(read.error());
   if (player.times_.empty()) return base::fail(fmt::format("{}:1: there are no rows after the header", name));
   player.info_ = std::move(info);
@@ -61,6 +69,7 @@ DeviceStatus PathPlayer::read(PointerState& state) {
   const std::size_t row = next_++;
   state = PointerState{};
   state.position = positions_[row];
+  if (has_button()) state.buttons = buttons_[row] ? 1U : 0U;
   if (row > 0) state.velocity = (positions_[row] - positions_[row - 1]) / (times_[row] - times_[row - 1]);
   return DeviceStatus::Ok;
 }

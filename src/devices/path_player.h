@@ -13,7 +13,8 @@ namespace icome::devices {
 /// gives the same ticks on every machine, as fast as the machine can. Forces are accepted and ignored.
 class PathPlayer final : public PointerDevice {
  public:
-  /// Reads a file whose first line is `t,x,y,z` and whose rows are seconds and metres, t increasing.
+  /// Reads a file whose first line is `t,x,y,z` and whose rows are seconds and metres, t increasing. A fifth
+  /// column, `b`, is the first button: 1 down, 0 up.
   /// `info` is passed on to the limiter and the display, under the name of the file. The error names
   /// file and line.
   static base::Result<PathPlayer> create(const std::string& path, DeviceInfo info = {});
@@ -36,6 +37,8 @@ class PathPlayer final : public PointerDevice {
   const std::vector<double>& times() const { return times_; }
   /// Position in each row, m.
   const std::vector<Vector3>& positions() const { return positions_; }
+  /// Has the file the button's column?
+  bool has_button() const { return !buttons_.empty(); }
 
  private:
   PathPlayer() = default;
@@ -43,6 +46,7 @@ class PathPlayer final : public PointerDevice {
   DeviceInfo info_;
   std::vector<double> times_;       // s
   std::vector<Vector3> positions_;  // m
+  std::vector<bool> buttons_;       // empty: the button is never down
   std::size_t next_ = 0;            // row of the next read
 };
 

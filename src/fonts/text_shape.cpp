@@ -19,21 +19,6 @@ namespace {
 using base::Vector2;
 using ClipperLib::cInt;
 
-/// The letters of UTF-8 text.
-std::vector<char32_t> letters_of(const std::string& utf8) {
-  std::vector<char32_t> letters;
-  for (std::size_t i = 0; i < utf8.size();) {
-    const auto first = static_cast<unsigned char>(utf8[i]);
-    const std::size_t more = first < 0xC0 ? 0 : first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;
-    char32_t letter = more == 0 ? first : first & (0x3FU >> more);
-    for (std::size_t k = 1; k <= more; ++k)
-      letter = (letter << 6U) | (static_cast<unsigned char>(utf8[i + k]) & 0x3FU);
-    letters.push_back(letter);
-    i += 1 + more;
-  }
-  return letters;
-}
-
 base::Result<void> check_wish(const std::string& utf8, double height, double depth) {
   const auto good = [](double length) {
     return length >= geometry::kSmallestProfile && length <= geometry::kLargestProfile;
@@ -43,7 +28,7 @@ base::Result<void> check_wish(const std::string& utf8, double height, double dep
                                   geometry::kSmallestProfile, geometry::kLargestProfile));
   constexpr std::size_t kMostBytes = 4;  // of a letter
   if (utf8.size() > kMostBytes * kMostLetters || base::as_utf8(utf8) != utf8 ||
-      letters_of(utf8).size() > kMostLetters)
+      base::letters_of(utf8).size() > kMostLetters)
     return base::fail(fmt::format("Text must be UTF-8 of at most {} letters: give less.", kMostLetters));
   return {};
 }
@@ -152,7 +137,7 @@ base::Result<geometry::TriangleMesh> text_shape(const std::string& utf8, double 
   const auto face = FontFace::open(family.empty() ? kUsualFont : family);
   if (!face) return tl::unexpected(face.error());
   TextSetting setting(*face);
-  if (const auto set = setting.set(letters_of(utf8)); !set) return tl::unexpected(set.error());
+  if (const auto set = setting.set(base::letters_of(utf8)); !set) return tl::unexpected(set.error());
   const std::vector<geometry::Outline> pieces = united(setting.take());
   if (pieces.empty()) return base::fail("The text has no letter that can be seen: give another.");
   auto mesh = geometry::solid_of_outlines(pieces, depth > 0.0 ? 1.0 : 0.0);

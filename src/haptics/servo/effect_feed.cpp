@@ -46,6 +46,13 @@ Vector3 at_most(const Vector3& force, double newtons) {
   return length > newtons ? Vector3(force * (newtons / length)) : force;
 }
 
+/// Null where the text makes none.
+std::unique_ptr<Effect> effect_of(const PlacedEffect& placed) {
+  if (placed.panel) return std::make_unique<Panel>(*placed.panel);
+  auto made = make_effect(placed.text);
+  return made ? std::move(*made) : nullptr;
+}
+
 }  // namespace
 
 Reach reach_in_world(const PlacedEffect& placed, const Effect& effect) {
@@ -61,15 +68,15 @@ std::shared_ptr<EffectFeed::Felt> EffectFeed::felt_as(const PlacedEffect& placed
       published_.members, [&](const Member& it) { return placed.id != 0 && it.placed.id == placed.id; });
   const bool goes_on = last != published_.members.end();
   const bool as_mirrored = goes_on && last->placed.mirrored == placed.mirrored;
-  if (as_mirrored && last->placed.text == placed.text) return last->felt;
-  auto made = make_effect(placed.text);
+  if (goes_on && last->placed.same_effect(placed)) return last->felt;
+  std::unique_ptr<Effect> made = effect_of(placed);
   if (!made) return nullptr;
   if (!goes_on)
     return std::make_shared<Felt>(
-        Felt{std::move(*made),
+        Felt{std::move(made),
              std::make_shared<Whereabouts>(Whereabouts{placed.world_from_effect, placed.world_from_effect})});
-  if (as_mirrored) (*made)->continue_from(*last->felt->effect);
-  return std::make_shared<Felt>(Felt{std::move(*made), last->felt->whereabouts, true});
+  if (as_mirrored) made->continue_from(*last->felt->effect);
+  return std::make_shared<Felt>(Felt{std::move(made), last->felt->whereabouts, true});
 }
 
 void EffectFeed::publish(const std::vector<PlacedEffect>& effects) {

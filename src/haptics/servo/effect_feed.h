@@ -6,6 +6,7 @@
 
 #include "haptics/contact/motion.h"
 #include "haptics/effects/effect.h"
+#include "haptics/effects/panel.h"
 #include "haptics/servo/scene_feed.h"
 #include "realtime/latest_value.h"
 
@@ -14,15 +15,19 @@ namespace icome::haptics {
 /// An effect of a design, with the pose and the motion of its object.
 struct PlacedEffect {
   std::uint64_t id = 0;  // of its object; 0: it has none
-  std::string text;      // for make_effect(), which takes it
+  std::string text;      // for make_effect(), which takes it; not read where there is a panel
   base::Pose world_from_effect = base::Pose::Identity();
   Motion motion = {};
-  bool mirrored = false;  // its own x is negated before its pose is applied
+  bool mirrored = false;                                 // its own x is negated before its pose is applied
+  std::shared_ptr<const PanelSettings> panel = nullptr;  // the ground of an interface element
 
+  /// Are these the same effect, wherever it is?
+  bool same_effect(const PlacedEffect& other) const {
+    return mirrored == other.mirrored && panel == other.panel && text == other.text;
+  }
   bool operator==(const PlacedEffect& other) const {
-    return id == other.id && text == other.text &&
-           world_from_effect.matrix() == other.world_from_effect.matrix() && motion == other.motion &&
-           mirrored == other.mirrored;
+    return id == other.id && same_effect(other) &&
+           world_from_effect.matrix() == other.world_from_effect.matrix() && motion == other.motion;
   }
 };
 

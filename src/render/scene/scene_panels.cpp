@@ -30,6 +30,49 @@ std::optional<Vector2> place_of(const SceneOverlay::Panel& panel, const Camera& 
   return Vector2(seen->x * size.x(), (1.0 - seen->y) * size.y());
 }
 
+/// Its lower, then its upper corners in the clip space of the target.
+using Corners = Eigen::Matrix<float, 4, 4>;
+
+Corners corners_of_lying(const SceneOverlay::Panel& panel, const Camera& camera,
+                         const PictureWindow& window) {
+  const Matrix4 clip_from_world = windowed(camera, window).clip_from_world();
+  const auto& [right, up] = *panel.lying;
+  Corners corners;
+  for (int i = 0; i < 4; ++i) {
+    const base::Vector3 corner = *panel.at + ((i & 1) != 0 ? right : -right) + ((i & 2) != 0 ? up : -up);
+    corners.col(i) = (clip_from_world * corner.homogeneous()).cast<float>();
+  }
+  corners.row(2).setZero();  // it may lie nearer to the eye than all else
+  return corners;
+}
+
+/// Nothing when it is behind the eye.
+std::optional<Corners> corners_of_facing(const SceneOverlay::Panel& panel, const Camera& camera,
+                                         const SceneTarget& target) {
+  const Vector2 part(target.width, target.height);
+  const PictureWindow& window = target.window;
+  const Vector2 whole = part.cwiseQuotient(Vector2(window.width, window.height));
+  const Vector2 corner = whole.cwiseProduct(Vector2(window.left, window.bottom));
+  const auto place = place_of(panel, camera, whole);
+  if (!place) return std::nullopt;
+  const Vector2 size = panel.scale * Vector2(panel.picture->width, panel.picture->height);
+  // On whole pixels, so that letters stay sharp.
+  const Vector2 low = (*place + panel.shift - panel.anchor.cwiseProduct(size)).array().round();
+  Corners corners;
+  for (int i = 0; i < 4; ++i) {
+    const Vector2 at = low + Vector2((i & 1) != 0 ? size.x() : 0.0, (i & 2) != 0 ? size.y() : 0.0);
+    const Vector2 device = (at - corner).cwiseQuotient(0.5 * part) - Vector2::Ones();
+    corners.col(i) << device.cast<float>(), 0.0F, 1.0F;
+  }
+  return corners;
+}
+
+std::optional<Corners> corners_of(const SceneOverlay::Panel& panel, const Camera& camera,
+                                  const SceneTarget& target) {
+  if (panel.at && panel.lying) return corners_of_lying(panel, camera, target.window);
+  return corners_of_facing(panel, camera, target);
+}
+
 }  // namespace
 
 unsigned ScenePanels::texture(const std::shared_ptr<const charts::Image>& picture) {
@@ -64,23 +107,13 @@ base::Result<void> ScenePanels::draw(const SceneOverlay& overlay, const Camera& 
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  const Vector2 part(target.width, target.height);
-  const PictureWindow& window = target.window;
-  const Vector2 whole = part.cwiseQuotient(Vector2(window.width, window.height));
-  const Vector2 corner = whole.cwiseProduct(Vector2(window.left, window.bottom));
   for (const SceneOverlay::Panel& panel : overlay.panels) {
     if (!can_be_drawn(panel)) continue;
-    const auto place = place_of(panel, camera, whole);
-    if (!place || !place->allFinite()) continue;
-    const Vector2 size = panel.scale * Vector2(panel.picture->width, panel.picture->height);
-    // On whole pixels, so that letters stay sharp.
-    const Vector2 low = (*place + panel.shift - panel.anchor.cwiseProduct(size)).array().round();
-    const Vector2 from = (low - corner).cwiseQuotient(0.5 * part) - Vector2::Ones();
-    const Vector2 to = (low + size - corner).cwiseQuotient(0.5 * part) - Vector2::Ones();
+    const auto corners = corners_of(panel, camera, target);
+    if (!corners || !corners->allFinite()) continue;
     glBindTexture(GL_TEXTURE_2D, texture(panel.picture));
     set_uniform(name, "alpha", float(std::min(panel.alpha, 1.0)));
-    glUniform4f(glGetUniformLocation(name.name(), "area"), float(from.x()), float(from.y()), float(to.x()),
-                float(to.y()));
+    glUniform4fv(glGetUniformLocation(name.name(), "corners"), 4, corners->data());
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
   glDisable(GL_BLEND);

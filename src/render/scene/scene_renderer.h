@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -40,7 +41,8 @@ struct SceneOverlay {
     double width = 7.0;  ///< pixels
   };
 
-  /// Text and other pictures, drawn by the caller: they face the eye and are never hidden.
+  /// Text and other pictures, drawn by the caller: they face the eye or lie in the scene, and are never
+  /// hidden.
   struct Panel {
     /// sRGB, premultiplied, unlike other images; kept on the graphics card for as long as somebody has it.
     std::shared_ptr<const charts::Image> picture;
@@ -48,8 +50,11 @@ struct SceneOverlay {
     base::Vector2 in_window = base::Vector2::Zero();  ///< without `at`: shares from the left and the bottom
     base::Vector2 anchor = {0.5, 0.5};  ///< place of the panel that comes there: shares, as in_window
     base::Vector2 shift = base::Vector2::Zero();  ///< pixels to the right and up from there
-    double scale = 1.0;                           ///< pixels of the window for one of the picture, > 0
-    double alpha = 1.0;                           ///< 0 ... 1, of all of it
+    /// With `at`, its middle: from there to the middle of its right edge and of its upper one, m. It then
+    /// lies in the scene, and what places a panel that faces the eye does not count.
+    std::optional<std::array<base::Vector3, 2>> lying = {};
+    double scale = 1.0;  ///< pixels of the window for one of the picture, > 0
+    double alpha = 1.0;  ///< 0 ... 1, of all of it
   };
 
   /// A scene once more, elsewhere and of another size: a world in miniature. Transparent objects are drawn

@@ -349,14 +349,13 @@ void main() {
 }
 )";
 
-/// A picture over all else, in its own colours; `area` are its corners in device coordinates.
+/// A picture over all else, in its own colours; `corners` are its lower, then its upper ones, in clip space.
 constexpr char kPanelVertexShader[] = R"(
-uniform vec4 area;
+uniform vec4 corners[4];
 out vec2 place;
 void main() {
-  vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1));
-  place = vec2(corner.x, 1.0 - corner.y);
-  gl_Position = vec4(mix(area.xy, area.zw, corner), 0.0, 1.0);
+  place = vec2(float(gl_VertexID & 1), 1.0 - float(gl_VertexID >> 1));
+  gl_Position = corners[gl_VertexID];
 }
 )";
 

@@ -1,0 +1,290 @@
+#include "apps/menu/menu_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "apps/design/design_work.h"
+#include "apps/interrupt.h"
+#include "apps/menu/menu_picture.h"
+#include "apps/menu/menu_trial.h"
+#include "devices/device_profiles.h"
+#include "fonts/text_ruler.h"
+#include "fonts/text_shape.h"
+#include "interaction/elements/element_file.h"
+#include "io/new_file.h"
+
+namespace icome::apps {
+namespace {
+
+using interaction::Element;
+using interaction::ElementUse;
+using interaction::LaidWidget;
+using interaction::Widget;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kMenuNotes =
+    "Examples:\n"
+    "  icome menu colours.toml                     where each item lies\n"
+    "  icome menu colours.toml --picture menu.png  faded, and near the pointer with an item lit\n"
+    "  icome menu colours.toml --path tip.csv --choose push --json\n"
+    "\n"
+    "FILE.toml describes a haptic element: a menu, toolbar, dialog, ring or pie that lies in the scene\n"
+    "(docs/elements.md). The path has a first line t,x,y,z (s, m, world frame), and perhaps a fifth\n"
+    "column b, the button: 1 down, 0 up. Without it a click comes where the path ends. Each row is a\n"
+    "tick of the servo, and the forces keep the limits of the device.\n"
+    "\n"
+    "JSON: {file, kind, language, items: [{name, text, kind, centre: [x,y,z], normal: [x,y,z], width,\n"
+    "height, enabled, submenu: null or [items, as they lie when it is open]}]} (m, world frame); with\n"
+    "--path {chosen: [names], choices: [{name, by, time_s}], seconds, near_s, pushes, max_force_n,\n"
+    "max_force_step_n, tick_us: {median, p99, max}}.";
+
+const char* word_of(interaction::ElementKind kind) {
+  switch (kind) {
+    case interaction::ElementKind::Menu:
+      return "menu";
+    case interaction::ElementKind::Toolbar:
+      return "toolbar";
+    case interaction::ElementKind::Dialog:
+      return "dialog";
+    case interaction::ElementKind::Ring:
+      return "ring";
+    case interaction::ElementKind::Pie:
+      break;
+  }
+  return "pie";
+}
+
+const char* word_of(interaction::WidgetKind kind) {
+  switch (kind) {
+    case interaction::WidgetKind::Item:
+      return "item";
+    case interaction::WidgetKind::Check:
+      return "check";
+    case interaction::WidgetKind::Radio:
+      return "radio";
+    case interaction::WidgetKind::Slider:
+      return "slider";
+    case interaction::WidgetKind::Label:
+      return "label";
+    case interaction::WidgetKind::Separator:
+      break;
+  }
+  return "separator";
+}
+
+const char* word_of(interaction::ChosenBy by) {
+  switch (by) {
+    case interaction::ChosenBy::Click:
+      return "click";
+    case interaction::ChosenBy::Push:
+      return "push";
+    case interaction::ChosenBy::Key:
+      return "key";
+    case interaction::ChosenBy::Name:
+      break;
+  }
+  return "name";
+}
+
+Json json_of(const base::Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+std::string dumped(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// An element with what is needed to lay it out.
+struct Prepared {
+  Element element;
+  std::size_t language = 0;
+  interaction::TextMeasure measure;
+};
+
+/// The items of one sheet, and below each those of the menu that it opens, as they lie when it is open.
+Json items_of(const Prepared& prepared, const std::vector<const Widget*>& open) {
+  const auto layout = interaction::lay_out(prepared.element, prepared.language, prepared.measure, open);
+  const interaction::ElementFrame frame{prepared.element.centre, prepared.element.turn};
+  Json items = Json::array();
+  for (const LaidWidget& laid : layout.widgets) {
+    const Widget& widget = *laid.widget;
+    if (laid.sheet + 1 != layout.sheets.size() || !widget.can_be_chosen()) continue;
+    Json item{{"name", widget.name},
+              {"text", laid.lines.front()},
+              {"kind", word_of(widget.kind)},
+              {"centre", json_of(frame.in_world(laid.centre))},
+              {"normal", json_of(frame.normal())},
+              {"width", 2.0 * laid.half.x()},
+              {"height", 2.0 * laid.half.y()},
+              {"enabled", widget.enabled},
+              {"submenu", nullptr}};
+    if (!widget.widgets.empty()) {
+      std::vector<const Widget*> deeper = open;
+      deeper.push_back(&widget);
+      item["submenu"] = items_of(prepared, deeper);
+    }
+    items.push_back(std::move(item));
+  }
+  return items;
+}
+
+std::string layout_json(const Prepared& prepared, const MenuOptions& options) {
+  return dumped({{"file", options.file.string()},
+                 {"kind", word_of(prepared.element.kind)},
+                 {"language", prepared.element.languages[prepared.language]},
+                 {"items", items_of(prepared, {})}});
+}
+
+void append_rows(const Json& items, const std::string& indent, std::string& text) {
+  for (const Json& item : items) {
+    const auto name = indent + item["name"].get<std::string>();
+    const auto& centre = item["centre"];
+    text +=
+        fmt::format("  {:<28}{:>8.1f}{:>8.1f}{:>8.1f}{:>9.1f} x {:.1f}{}\n", name,
+                    1000.0 * centre[0].get<double>(), 1000.0 * centre[1].get<double>(),
+                    1000.0 * centre[2].get<double>(), 1000.0 * item["width"].get<double>(),
+                    1000.0 * item["height"].get<double>(), item["enabled"].get<bool>() ? "" : "  disabled");
+    if (!item["submenu"].is_null()) append_rows(item["submenu"], indent + "  ", text);
+  }
+}
+
+std::string layout_text(const Prepared& prepared, const MenuOptions& options) {
+  std::string text =
+      fmt::format("{}: a {}, turned by {:.4g} degrees; mm, world frame\n", options.file.string(),
+                  word_of(prepared.element.kind), prepared.element.turn * 180.0 / std::numbers::pi);
+  text += fmt::format("  {:<28}{:>8}{:>8}{:>8}{:>14}\n", "item", "x", "y", "z", "size");
+  append_rows(items_of(prepared, {}), "", text);
+  return text;
+}
+
+double share_of(const std::vector<double>& rising, double share) {
+  return rising[std::size_t(share * double(rising.size() - 1))];
+}
+
+std::string trial_json(const MenuTrial& trial) {
+  Json names = Json::array(), choices = Json::array();
+  for (const MenuChoice& choice : trial.chosen) {
+    names.push_back(choice.name);
+    choices.push_back({{"name", choice.name}, {"by", word_of(choice.by)}, {"time_s", choice.time}});
+  }
+  return dumped({{"chosen", names},
+                 {"choices", choices},
+                 {"seconds", trial.seconds},
+                 {"near_s", trial.near_seconds},
+                 {"pushes", trial.pushes},
+                 {"max_force_n", trial.max_force},
+                 {"max_force_step_n", trial.max_force_step},
+                 {"tick_us",
+                  {{"median", share_of(trial.tick_us, 0.5)},
+                   {"p99", share_of(trial.tick_us, 0.99)},
+                   {"max", trial.tick_us.back()}}}});
+}
+
+std::string trial_text(const MenuTrial& trial) {
+  std::string text =
+      fmt::format("{:.4g} s, {:.4g} of them near the element, pushed in {} time{}\n", trial.seconds,
+                  trial.near_seconds, trial.pushes, trial.pushes == 1 ? "" : "s");
+  for (const MenuChoice& choice : trial.chosen)
+    text += fmt::format("  {:.3f} s: {} (by {})\n", choice.time, choice.name, word_of(choice.by));
+  if (trial.chosen.empty()) text += "  nothing was chosen\n";
+  return text + fmt::format(
+                    "force at most {:.3g} N, in steps of at most {:.3g} N; a tick {:.2g} us in the median, "
+                    "{:.2g} at most\n",
+                    trial.max_force, trial.max_force_step, share_of(trial.tick_us, 0.5),
+                    trial.tick_us.back());
+}
+
+base::Result<Prepared> prepare(const MenuOptions& options) {
+  auto element = interaction::read_element_file(options.file);
+  if (!element) return tl::unexpected(element.error());
+  Prepared prepared{std::move(*element), 0, {}};
+  const auto& languages = prepared.element.languages;
+  if (!options.language.empty()) {
+    const auto found = std::ranges::find(languages, options.language);
+    if (found == languages.end())
+      return base::fail(fmt::format("{} has no language \"{}\"; it has {}.", options.file.string(),
+                                    options.language, fmt::join(languages, ", ")));
+    prepared.language = std::size_t(found - languages.begin());
+  }
+  const auto ruler = fonts::TextRuler::open(fonts::kUsualFont);
+  if (!ruler) return tl::unexpected(ruler.error());
+  prepared.measure = [ruler = *ruler](const std::string& text) { return ruler.width(text); };
+  return prepared;
+}
+
+base::Result<std::string> answer_of_trial(ElementUse& use, const MenuOptions& options) {
+  const auto device = devices::find_device_profile(options.device);
+  if (!device) return tl::unexpected(device.error());
+  auto path = devices::PathPlayer::create(options.path->string(), *device);
+  if (!path) return tl::unexpected(path.error());
+  const auto trial = try_element(use, *path);
+  if (!trial) return base::fail("interrupted");
+  return options.json ? trial_json(*trial) : trial_text(*trial);
+}
+
+base::Result<void> write_picture(const ElementUse& use, const MenuOptions& options, StatusLine& status) {
+  if (const auto png = check_picture_name(*options.picture); !png) return tl::unexpected(png.error());
+  auto out = io::NewFile::create(*options.picture);
+  if (!out) return tl::unexpected(out.error());
+  const auto image = draw_element(use, options, status);
+  if (!image) return tl::unexpected(image.error());
+  const auto png = charts::encode_png(*image);
+  if (!png) return tl::unexpected(png.error());
+  if (interrupted()) return base::fail("interrupted");
+  out->write(std::string_view(reinterpret_cast<const char*>(png->data()), png->size()));
+  return out->finish();
+}
+
+base::Result<std::string> answer_of(Prepared& prepared, const MenuOptions& options, StatusLine& status) {
+  prepared.element.choosing.by_click = !options.path || options.choose == "click";
+  prepared.element.choosing.by_push = !options.path || options.choose == "push";
+  ElementUse use(prepared.element, prepared.language, prepared.measure);
+  if (options.picture)
+    if (const auto written = write_picture(use, options, status); !written)
+      return tl::unexpected(written.error());
+  if (options.path) return answer_of_trial(use, options);
+  return options.json ? layout_json(prepared, options) : layout_text(prepared, options);
+}
+
+}  // namespace
+
+void add_menu(CLI::App& app, MenuOptions& options) {
+  CLI::App& menu = *app.add_subcommand(
+      "menu", "Show, draw and try a haptic menu, toolbar or dialog in the scene (thesis 5.7.2)");
+  menu.footer(kMenuNotes);
+  menu.add_option("FILE", options.file, "The element")->type_name("")->required();
+  menu.add_option("--language", options.language, "Language of its texts (default: the first in the file)")
+      ->type_name("NAME");
+  auto* const path =
+      menu.add_option("--path", options.path, "Try it: move the tip along these rows")->type_name("P.csv");
+  menu.add_option("--choose", options.choose, "How the path chooses: click (default) or push")
+      ->check(CLI::IsMember({"click", "push"}))
+      ->type_name("HOW")
+      ->needs(path);
+  menu.add_option("--device", options.device, "Profile of the device of the path (default touch)")
+      ->type_name("NAME")
+      ->needs(path);
+  auto* const picture =
+      menu.add_option("--picture", options.picture, "Draw it, faded and opaque")->type_name("OUT.png");
+  menu.add_option("--design", options.design, "Draw it over this design")->type_name("FILE")->needs(picture);
+  menu.add_option("--theme", options.theme, "Its look: light (default), dark or contrast")
+      ->check(CLI::IsMember({"light", "dark", "contrast"}))
+      ->type_name("LOOK")
+      ->needs(picture);
+  menu.add_flag("--json", options.json, "Print the answer as JSON (fields below)");
+}
+
+int run_menu(const MenuOptions& options) {
+  catch_interrupts();
+  StatusLine status;
+  auto prepared = prepare(options);
+  if (!prepared) return end_without_result(prepared.error(), status);
+  const auto answer = answer_of(*prepared, options, status);
+  status.clear();
+  if (!answer) return end_without_result(answer.error(), status);
+  return print_answer(*answer);
+}
+
+}  // namespace icome::apps

@@ -1,0 +1,20 @@
+#pragma once
+#include <vector>
+
+#include "haptics/effects/panel.h"
+#include "interaction/elements/element_frame.h"
+#include "interaction/elements/element_layout.h"
+
+namespace icome::interaction {
+
+/// The ground of one sheet of an element, to be felt.
+struct FeltSheet {
+  base::Pose world_from_sheet = base::Pose::Identity();  // x right, y up, z out of the front
+  haptics::PanelSettings panel;
+};
+
+/// What is felt of an element: a panel for each sheet, the element's own first.
+std::vector<FeltSheet> feel_of(const Element& element, const ElementLayout& layout,
+                               const ElementFrame& frame);
+
+}  // namespace icome::interaction

@@ -1,0 +1,309 @@
+#include "session/elements/element_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "charts/canvas.h"
+#include "charts/palette.h"
+#include "interaction/operations/looks/colour_names.h"
+
+namespace icome::session {
+namespace {
+
+using base::Vector2;
+using charts::Area;
+using charts::Canvas;
+using charts::Colour;
+using interaction::ElementKind;
+using interaction::LaidSheet;
+using interaction::LaidWidget;
+using interaction::Widget;
+using interaction::WidgetKind;
+
+constexpr double kMillimetres = 1000.0;  // a page unit is a millimetre
+constexpr double kCapital = 0.729;       // height of a capital letter of DejaVu Sans, of its size
+constexpr double kMostPixels = 4096.0;
+
+struct Colours {
+  Colour paper, ink, quiet, line, lit, on_lit, title, on_title;
+};
+
+Colours colours_of(ElementTheme theme) {
+  switch (theme) {
+    case ElementTheme::Light:
+      return {{0.985, 0.987, 0.99}, charts::kInk,    {0.58, 0.61, 0.66},  {0.80, 0.83, 0.87},
+              {0.10, 0.43, 0.78},   {1.0, 1.0, 1.0}, {0.91, 0.93, 0.955}, charts::kInk};
+    case ElementTheme::Dark:
+      return {{0.15, 0.165, 0.19}, {0.93, 0.94, 0.95}, {0.50, 0.53, 0.57},  {0.30, 0.33, 0.37},
+              {0.25, 0.56, 0.93},  {1.0, 1.0, 1.0},    {0.21, 0.23, 0.265}, {0.93, 0.94, 0.95}};
+    case ElementTheme::HighContrast:
+      break;
+  }
+  return {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {0.65, 0.65, 0.65}, {1.0, 1.0, 1.0},
+          {1.0, 1.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0},    {1.0, 1.0, 1.0}};
+}
+
+/// Draws one sheet; the page's y grows downward from the sheet's upper edge.
+class SheetPainter {
+ public:
+  SheetPainter(const interaction::ElementUse& use, std::size_t sheet, const Colours& colours, Canvas& canvas)
+      : use_(use),
+        sheet_(use.layout().sheets[sheet]),
+        number_(sheet),
+        colours_(colours),
+        canvas_(canvas),
+        unit_(use.element().text_height * kMillimetres) {}
+
+  void paint() {
+    canvas_.fill({0.0, 0.0, canvas_.width(), canvas_.height()}, colours_.paper);
+    const auto& widgets = use_.layout().widgets;
+    const auto here = [&](const LaidWidget& laid) { return laid.sheet == number_; };
+    marks_ = std::ranges::any_of(widgets, [&](const LaidWidget& it) { return here(it) && has_mark(it); });
+    icons_ = std::ranges::any_of(widgets,
+                                 [&](const LaidWidget& it) { return here(it) && !it.widget->icon.empty(); });
+    paint_title();
+    for (const LaidWidget& laid : widgets)
+      if (here(laid)) paint_widget(laid);
+  }
+
+ private:
+  static bool has_mark(const LaidWidget& laid) {
+    return laid.widget->kind == WidgetKind::Check || laid.widget->kind == WidgetKind::Radio;
+  }
+  bool stands_alone() const {
+    const ElementKind kind = use_.element().kind;
+    return sheet_.opened_by == nullptr && kind != ElementKind::Menu;
+  }
+
+  Vector2 page(const Vector2& place) const {
+    return kMillimetres * Vector2(place.x() - sheet_.centre.x() + sheet_.half.x(),
+                                  sheet_.centre.y() + sheet_.half.y() - place.y());
+  }
+  Area area_of(const LaidWidget& laid) const {
+    const Vector2 corner = page(laid.centre + Vector2(-laid.half.x(), laid.half.y()));
+    return {corner.x(), corner.y(), 2.0 * kMillimetres * laid.half.x(), 2.0 * kMillimetres * laid.half.y()};
+  }
+  charts::TextStyle style(const Colour& colour, bool bold = false) const {
+    return {unit_ / kCapital, colour, bold, 0.0, 0.0};
+  }
+
+  void paint_title() {
+    if (sheet_.title.empty()) return;
+    const bool in_middle = sheet_.title_height == 0.0;
+    auto look = style(colours_.on_title, true);
+    if (in_middle) {
+      look.align = 0.5;
+      const Vector2 middle = page(sheet_.centre);
+      return canvas_.text({middle.x(), middle.y() + 0.5 * unit_}, sheet_.title, look);
+    }
+    const double height = sheet_.title_height * kMillimetres;
+    canvas_.fill({0.0, 0.0, canvas_.width(), height}, colours_.title);
+    canvas_.text({0.9 * unit_, 0.5 * (height + unit_)}, sheet_.title, look);
+  }
+
+  void paint_widget(const LaidWidget& laid) {
+    const Widget& widget = *laid.widget;
+    const Area area = area_of(laid);
+    if (widget.kind == WidgetKind::Separator) return paint_separator(area);
+    if (widget.kind == WidgetKind::Label) return paint_words(laid, area);
+    const bool is_lit = use_.lit() == &widget;
+    const Colour ink = !widget.enabled ? colours_.quiet : is_lit ? colours_.on_lit : colours_.ink;
+    paint_ground(laid, area, is_lit);
+    double left = area.x + 0.9 * unit_;
+    const double middle = area.y + 0.5 * area.height;
+    const bool alone = stands_alone();
+    if (alone ? has_mark(laid) : marks_) {
+      if (has_mark(laid)) paint_mark(widget, {left + 0.6 * unit_, middle}, ink);
+      left += 2.0 * unit_;
+    }
+    if (alone ? !widget.icon.empty() : icons_) {
+      if (!widget.icon.empty()) paint_icon(widget, {left, middle - 0.8 * unit_, 1.6 * unit_, 1.6 * unit_});
+      left += 2.2 * unit_;
+    }
+    auto look = style(ink, widget.is_default);
+    const bool is_button = alone && !has_mark(laid) && widget.icon.empty() && widget.widgets.empty();
+    if (is_button && widget.kind == WidgetKind::Item) {
+      look.align = 0.5;
+      left = area.x + 0.5 * area.width;
+    }
+    canvas_.text({left, middle + 0.5 * unit_}, laid.lines.front(), look);
+    if (!widget.widgets.empty()) paint_arrow({area.right() - 1.2 * unit_, middle}, ink);
+    if (widget.kind == WidgetKind::Slider) paint_slider(laid, middle, ink);
+  }
+
+  void paint_separator(const Area& area) {
+    const std::array<Vector2, 2> line{Vector2(area.x + 0.4 * unit_, area.y + 0.5 * area.height),
+                                      Vector2(area.right() - 0.4 * unit_, area.y + 0.5 * area.height)};
+    canvas_.line(line, {colours_.line, 0.08 * unit_, {}});
+  }
+
+  void paint_words(const LaidWidget& laid, const Area& area) {
+    double y = area.y + 1.35 * unit_;
+    for (const std::string& line : laid.lines) {
+      canvas_.text({area.x + 0.9 * unit_, y}, line, style(colours_.ink));
+      y += 1.7 * unit_;
+    }
+  }
+
+  void paint_ground(const LaidWidget& laid, const Area& area, bool is_lit) {
+    if (laid.sector) return paint_sector(*laid.sector, is_lit);
+    if (is_lit) canvas_.fill(area, colours_.lit);
+    if (!stands_alone()) return;
+    const double width = (laid.widget->is_default ? 0.22 : 0.1) * unit_;
+    const std::array<Vector2, 5> border{Vector2(area.x, area.y), Vector2(area.right(), area.y),
+                                        Vector2(area.right(), area.bottom()), Vector2(area.x, area.bottom()),
+                                        Vector2(area.x, area.y)};
+    canvas_.line(border, {laid.widget->is_default ? colours_.lit : colours_.line, width, {}});
+  }
+
+  void paint_sector(const interaction::Sector& sector, bool is_lit) {
+    std::vector<Vector2> rim;
+    constexpr int kSteps = 48;
+    for (int side = 0; side < 2; ++side)
+      for (int i = 0; i <= kSteps; ++i) {
+        const double share = double(side == 0 ? i : kSteps - i) / kSteps;
+        const double angle = sector.from + share * (sector.to - sector.from);
+        const double radius = side == 0 ? sector.outer : sector.inner;
+        rim.push_back(page(sheet_.centre + radius * Vector2(std::sin(angle), std::cos(angle))));
+      }
+    if (is_lit) canvas_.fill_polygon(rim, colours_.lit);
+    rim.push_back(rim.front());
+    canvas_.line(rim, {colours_.line, 0.1 * unit_, {}});
+  }
+
+  void paint_mark(const Widget& widget, const Vector2& middle, const Colour& ink) {
+    const bool on = use_.is_checked(widget);
+    const charts::Stroke stroke{ink, 0.14 * unit_, {}};
+    if (widget.kind == WidgetKind::Radio) {
+      canvas_.circle(middle, 0.6 * unit_, stroke);
+      if (on) canvas_.fill_disc(middle, 0.32 * unit_, ink);
+      return;
+    }
+    const double half = 0.6 * unit_;
+    const std::array<Vector2, 5> box{middle + Vector2(-half, -half), middle + Vector2(half, -half),
+                                     middle + Vector2(half, half), middle + Vector2(-half, half),
+                                     middle + Vector2(-half, -half)};
+    canvas_.line(box, stroke);
+    const std::array<Vector2, 3> tick{middle + unit_ * Vector2(-0.34, 0.02),
+                                      middle + unit_ * Vector2(-0.08, 0.3),
+                                      middle + unit_ * Vector2(0.38, -0.32)};
+    if (on) canvas_.line(tick, {ink, 0.22 * unit_, {}});
+  }
+
+  void paint_icon(const Widget& widget, const Area& area) {
+    const auto colour = interaction::colour_from_text(widget.icon);
+    if (!colour) return;
+    canvas_.fill(area, colours_.line);
+    const double rim = 0.1 * unit_;
+    canvas_.fill(
+        {area.x + rim, area.y + rim, area.width - 2.0 * rim, area.height - 2.0 * rim},
+        {double((*colour)[0]), double((*colour)[1]), double((*colour)[2]), widget.enabled ? 1.0 : 0.4});
+  }
+
+  void paint_arrow(const Vector2& middle, const Colour& ink) {
+    const std::array<Vector2, 3> arrow{middle + unit_ * Vector2(-0.2, -0.5),
+                                       middle + unit_ * Vector2(0.35, 0.0),
+                                       middle + unit_ * Vector2(-0.2, 0.5)};
+    canvas_.fill_polygon(arrow, ink);
+  }
+
+  void paint_slider(const LaidWidget& laid, double middle, const Colour& ink) {
+    const auto groove = interaction::groove_of(laid, use_.element().text_height);
+    const double left = page({groove.left, 0.0}).x(), right = page({groove.right, 0.0}).x();
+    const Widget& widget = *laid.widget;
+    const double share = (use_.value_of(widget) - widget.least) / (widget.most - widget.least);
+    const double knob = left + share * (right - left);
+    const std::array<Vector2, 2> all{Vector2(left, middle), Vector2(right, middle)};
+    const std::array<Vector2, 2> set{Vector2(left, middle), Vector2(knob, middle)};
+    canvas_.line(all, {colours_.line, 0.3 * unit_, {}});
+    canvas_.line(set, {ink, 0.3 * unit_, {}});
+    canvas_.fill_disc({knob, middle}, 0.6 * unit_, ink);
+  }
+
+  const interaction::ElementUse& use_;
+  const LaidSheet& sheet_;
+  std::size_t number_;
+  const Colours& colours_;
+  Canvas& canvas_;
+  double unit_;  // mm, height of a capital letter
+  bool marks_ = false, icons_ = false;
+};
+
+/// Distance (m) from a rectangle with round corners, < 0 inside.
+double outside(const Vector2& offset, const Vector2& half, double radius) {
+  const Vector2 corner = offset.cwiseAbs() - half + Vector2::Constant(radius);
+  return corner.cwiseMax(0.0).norm() + std::min(corner.maxCoeff(), 0.0) - radius;
+}
+
+/// How far a place lies outside what is seen of a sheet, m.
+double outside_sheet(const interaction::ElementUse& use, std::size_t number, const Vector2& place) {
+  const LaidSheet& sheet = use.layout().sheets[number];
+  const double round = 0.6 * use.element().text_height;
+  const ElementKind kind = use.element().kind;
+  const bool is_root = sheet.opened_by == nullptr;
+  if (is_root && kind == ElementKind::Pie) return (place - sheet.centre).norm() - sheet.half.x();
+  if (!is_root || kind != ElementKind::Ring) return outside(place - sheet.centre, sheet.half, round);
+  double least = sheet.title.empty() ? 1.0 : outside(place - sheet.centre, sheet.title_half, round);
+  for (const LaidWidget& laid : use.layout().widgets)
+    if (laid.sheet == number) least = std::min(least, outside(place - laid.centre, laid.half, round));
+  return least;
+}
+
+/// Cuts the sheet out of its page, with a line round it, and premultiplies.
+void cut_out(const interaction::ElementUse& use, std::size_t sheet, const Colour& line, double resolution,
+             charts::Image& image) {
+  const LaidSheet& laid = use.layout().sheets[sheet];
+  const std::array<double, 3> rim{line.red, line.green, line.blue};
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const Vector2 place = laid.centre + Vector2((x + 0.5) / resolution - laid.half.x(),
+                                                  laid.half.y() - (y + 0.5) / resolution);
+      const double away = outside_sheet(use, sheet, place) * resolution;
+      const double inside = std::clamp(0.5 - away, 0.0, 1.0);
+      const double border = std::clamp(away + 2.5, 0.0, 1.0);
+      std::uint8_t* const bytes =
+          image.rgba.data() + 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double own = bytes[i] / 255.0;
+        bytes[i] = std::uint8_t(std::lround(255.0 * inside * (own + border * (rim[i] - own))));
+      }
+      bytes[3] = std::uint8_t(std::lround(255.0 * inside));
+    }
+}
+
+}  // namespace
+
+charts::Image draw_sheet(const interaction::ElementUse& use, std::size_t sheet, ElementTheme theme,
+                         double resolution) {
+  const LaidSheet& laid = use.layout().sheets[sheet];
+  resolution = std::min(resolution, 0.5 * kMostPixels / laid.half.maxCoeff());
+  const Vector2 size = 2.0 * resolution * laid.half;
+  const Colours colours = colours_of(theme);
+  Canvas canvas(std::max(1, int(std::lround(size.x()))), std::max(1, int(std::lround(size.y()))),
+                resolution / kMillimetres);
+  SheetPainter(use, sheet, colours, canvas).paint();
+  charts::Image image = canvas.snapshot();
+  cut_out(use, sheet, colours.line, resolution, image);
+  return image;
+}
+
+std::vector<render::SceneOverlay::Panel> panels_of(const interaction::ElementUse& use, ElementTheme theme,
+                                                   double resolution) {
+  std::vector<render::SceneOverlay::Panel> panels;
+  for (std::size_t i = 0; i < use.layout().sheets.size(); ++i) {
+    const LaidSheet& sheet = use.layout().sheets[i];
+    render::SceneOverlay::Panel panel;
+    panel.picture = std::make_shared<charts::Image>(draw_sheet(use, i, theme, resolution));
+    panel.at = use.frame().in_world(sheet.centre);
+    panel.lying = {sheet.half.x() * use.frame().right(), sheet.half.y() * base::Vector3::UnitY()};
+    panel.alpha = use.opacity();
+    panels.push_back(std::move(panel));
+  }
+  return panels;
+}
+
+}  // namespace icome::session

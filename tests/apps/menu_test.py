@@ -1,0 +1,141 @@
+"""icome menu: where the items of a haptic element lie, what a tip path chooses, and how it feels; judged by geometry
+written here."""
+import json
+import math
+import pathlib
+import unittest
+
+from icome_program import ProgramTest
+
+MENUS = pathlib.Path(__file__).resolve().parents[2] / "data" / "menus"
+TURNED = """
+title = "Colours"
+centre = [0.05, 0.1, -0.2]
+turn_deg = %s
+[[item]]
+name = "Red"
+[[item]]
+name = "Green"
+enabled = false
+[[item]]
+name = "Blue"
+[[item]]
+name = "More"
+[[item.item]]
+name = "Pink"
+"""
+
+
+def plus(a, b, times=1.0):
+    return [p + times * q for p, q in zip(a, b)]
+
+
+def path_of(points, button=None, hertz=1000, speed=0.1):
+    """Straight ways between points at a speed (m/s); `button` holds the numbers of the ways on which it is down."""
+    rows = ["t,x,y,z,b" if button is not None else "t,x,y,z"]
+    tick = 0
+    for number, (a, b) in enumerate(zip(points, points[1:])):
+        steps = max(1, int(math.dist(a, b) / speed * hertz))
+        for i in range(steps):
+            place = [p + (q - p) * (i + 1) / steps for p, q in zip(a, b)]
+            row = [tick / hertz, *place] + ([int(number in button)] if button is not None else [])
+            rows.append(",".join(repr(x) for x in row))
+            tick += 1
+    return "\n".join(rows) + "\n"
+
+
+class MenuTest(ProgramTest):
+    def layout(self, toml):
+        return json.loads(self.succeeds("menu", self.write("menu.toml", toml), "--json").stdout)
+
+    def tried(self, toml, path, *options):
+        return json.loads(self.succeeds("menu", self.write("menu.toml", toml), "--path", self.write("p.csv", path),
+                                        "--json", *options).stdout)
+
+    def test_items_lie_in_the_plane_below_each_other(self):
+        for turn in (0, 90, -90, 35.5, -120):
+            items = self.layout(TURNED % turn)["items"]
+            self.assertEqual([it["name"] for it in items], ["Red", "Green", "Blue", "More"])
+            alpha = math.radians(turn)
+            for item in items:
+                self.assertAlmostEqual(math.dist(item["normal"], [-math.sin(alpha), 0, math.cos(alpha)]), 0, places=12)
+                away = sum(n * d for n, d in zip(item["normal"], plus(item["centre"], [0.05, 0.1, -0.2], -1)))
+                self.assertAlmostEqual(away, 0, places=12)
+            for above, below in zip(items, items[1:]):
+                self.assertAlmostEqual(above["centre"][1] - below["centre"][1],
+                                       (above["height"] + below["height"]) / 2, places=12)
+            self.assertEqual([it["enabled"] for it in items], [True, False, True, True])
+            self.assertIsNone(items[0]["submenu"])
+            self.assertEqual([it["name"] for it in items[3]["submenu"]], ["Pink"])
+
+    def test_push_and_click_choose_what_the_tip_is_at(self):
+        for turn in (0, 60):
+            items = {it["name"]: it for it in self.layout(TURNED % turn)["items"]}
+            for name, chosen in (("Red", ["Red"]), ("Blue", ["Blue"]), ("Green", [])):
+                at, normal = items[name]["centre"], items[name]["normal"]
+                way = [plus(at, normal, 0.05), plus(at, normal, -0.006), plus(at, normal, 0.03)]
+                pushed = self.tried(TURNED % turn, path_of(way), "--choose", "push")
+                self.assertEqual(pushed["chosen"], chosen)
+                self.assertEqual(pushed["pushes"], 1)
+                # 600 N/m against 6 mm, softer by its recess and the click.
+                self.assertGreater(pushed["max_force_n"], 1.5)
+                self.assertLess(pushed["max_force_n"], 3.3)
+                self.assertLess(pushed["max_force_step_n"], 0.5)
+                near = [plus(at, normal, 0.05), plus(at, normal, 0.01), plus(at, normal, 0.0101)]
+                clicked = self.tried(TURNED % turn, path_of(near), "--choose", "click")
+                self.assertEqual(clicked["chosen"], chosen)
+                self.assertEqual(clicked["pushes"], 0)
+
+    def test_near_time_is_that_of_the_path(self):
+        item = self.layout(TURNED % 0)["items"][0]
+        at, normal = item["centre"], item["normal"]
+        path = path_of([plus(at, normal, 0.06), plus(at, normal, 0.001), plus(at, normal, 0.06)], speed=0.05)
+        self.assertAlmostEqual(self.tried(TURNED % 0, path)["near_s"], 2 * 0.019 / 0.05, delta=0.005)
+
+    def test_from_behind_nothing_is_felt_or_pushed(self):
+        menu = TURNED % 0
+        item = self.layout(menu)["items"][0]
+        at, normal = item["centre"], item["normal"]
+        way = [plus([at[0] + 0.3, at[1], at[2]], normal, -0.03), plus(at, normal, -0.03), plus(at, normal, 0.0005)]
+        plain = menu.replace("[[item]]", "[feel]\nwell_n = 0\nrecess_m = 0\n[[item]]", 1)
+        tried = self.tried(plain, path_of(way), "--choose", "push")
+        self.assertEqual(tried["chosen"], [])
+        self.assertEqual(tried["max_force_n"], 0)
+
+    def test_a_button_of_the_path_clicks_and_opens_menus(self):
+        menu = TURNED % 0
+        items = self.layout(menu)["items"]
+        more, pink = items[3], items[3]["submenu"][0]
+        way = [plus(more["centre"], more["normal"], 0.04), plus(more["centre"], more["normal"], 0.01),
+               plus(more["centre"], more["normal"], 0.009), plus(pink["centre"], pink["normal"], 0.01),
+               plus(pink["centre"], pink["normal"], 0.009)]
+        tried = self.tried(menu, path_of(way, button={1, 3}))
+        self.assertEqual(tried["chosen"][0], "More")
+        tried = self.tried(menu, path_of([*way, way[-1]], button={1, 4}))
+        self.assertEqual(tried["chosen"], ["More", "Pink"])
+
+    def test_languages_change_words_and_not_names(self):
+        colours = MENUS / "colours.toml"
+        dutch = json.loads(self.succeeds("menu", colours, "--language", "nl", "--json").stdout)
+        self.assertEqual([it["text"] for it in dutch["items"]],
+                         ["Rood", "Groen", "Blauw", "Geel", "Paars", "Wit", "Zwart"])
+        self.assertEqual(dutch["items"][0]["name"], "Red")
+        self.fails("menu", colours, "--language", "fr", code=1, saying="it has en, nl")
+
+    def test_bad_files_are_told_by_line(self):
+        self.fails("menu", self.write("menu.toml", "[[item]]\nname = 3\n"), "--json", code=1,
+                   saying="menu.toml:2:8:")
+        self.fails("menu", self.folder / "none.toml", code=1, saying="none.toml")
+        path = self.write("p.csv", "t,x,y,z,b\n0,0,0,0,2\n")
+        self.fails("menu", MENUS / "clear.toml", "--path", path, code=1,
+                   saying="p.csv:2: b, the button, is 0 (up) or 1 (down)")
+        self.fails("menu", MENUS / "clear.toml", "--picture", self.folder / "menu.jpg", code=1, saying=".png")
+
+    def test_pictures_show_it_faded_and_opaque(self):
+        out = self.folder / "menu.png"
+        self.succeeds("menu", MENUS / "colours.toml", "--picture", out)
+        self.assertEqual(out.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,236 @@
+#include "haptics/effects/panel.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/random.h"
+#include "devices/device_profiles.h"
+#include "devices/simulated/simulated_device.h"
+#include "repeats.h"
+
+namespace icome::haptics {
+namespace {
+
+constexpr double kPanelTick = 0.001;  // s
+
+/// A panel with targets of all kinds, side by side and over each other.
+PanelSettings random_panel(base::Random& random) {
+  PanelSettings panel;
+  panel.half = {random.uniform(0.02, 0.06), random.uniform(0.02, 0.06)};
+  panel.stiffness = random.uniform(300.0, 1200.0);
+  panel.push_depth = random.uniform(0.001, 0.005);
+  panel.sides = random.index(2) == 0 ? TouchableSides::Front : TouchableSides::Both;
+  for (std::uint64_t i = random.index(12); i-- > 0;) {
+    PanelTarget target;
+    target.half = {random.uniform(0.002, 0.02), random.uniform(0.002, 0.01)};
+    target.centre = {random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03)};
+    target.well = random.uniform(0.0, 0.8);
+    target.recess = random.uniform(-0.001, 0.001);
+    target.ridge = random.uniform(-0.0005, 0.0005);
+    target.rings = random.uniform(0.0, 0.0002);
+    target.ring_spacing = random.uniform(0.002, 0.005);
+    target.detent = random.uniform(0.0, 0.5);
+    panel.targets.push_back(target);
+  }
+  return panel;
+}
+
+EffectInput input_at(const Vector3& place, double dt = kPanelTick) {
+  EffectInput input;
+  input.dt = dt;
+  input.position = place;
+  return input;
+}
+
+/// Opens a panel with the tip far in front of it.
+void open(Panel& panel) {
+  for (int i = 0; i < 400; ++i) panel.force(input_at({0.0, 0.0, 0.5}));
+}
+
+Vector3 random_place(base::Random& random, const PanelSettings& panel) {
+  return {random.uniform(-1.2, 1.2) * panel.half.x(), random.uniform(-1.2, 1.2) * panel.half.y(),
+          random.uniform(-0.008, 0.015)};
+}
+
+TEST(Panel, SlopesOfTheGroundAreThoseOfItsHeights) {
+  base::Random random(1);
+  for (int i = 0; i < 300; ++i) {
+    const Panel panel(random_panel(random));
+    const Vector2 place = random_place(random, panel.settings()).head<2>();
+    constexpr double kStep = 1e-8;
+    const auto at = [&](double x, double y) { return panel.ground_at(place + kStep * Vector2(x, y)); };
+    const Panel::Ground here = panel.ground_at(place);
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto ahead = axis == 0 ? at(1, 0) : at(0, 1), behind = axis == 0 ? at(-1, 0) : at(0, -1);
+      EXPECT_NEAR(here.slope[axis], (ahead.height - behind.height) / (2.0 * kStep), 1e-4);
+      EXPECT_NEAR(here.detent_slope[axis], (ahead.detent - behind.detent) / (2.0 * kStep), 0.02);
+      EXPECT_NEAR(here.well_slope[axis], (ahead.well - behind.well) / (2.0 * kStep), 1e-4);
+    }
+  }
+}
+
+// Without friction and with a tip that creeps, all its force is that of a potential: what a way round gives
+// back is what it took.
+TEST(Panel, GivesNothingOnAWayRound) {
+  base::Random random(2);
+  for (int loop = 0; loop < 20; ++loop) {
+    Panel panel(random_panel(random));
+    open(panel);
+    std::vector<Vector3> corners;
+    for (int i = 0; i < 5; ++i) corners.push_back(random_place(random, panel.settings()));
+    // Every corner is in front of the relief, so that the tip is on the front wherever it presses.
+    const Vector3 start(0.0, 0.0, 0.02);
+    corners.insert(corners.begin(), start);
+    corners.push_back(start);
+    double work = 0.0, most = 0.0;
+    Vector3 last = start, force = panel.force(input_at(start));
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+      // A way over the panel keeps its side; round the edge it may change, which costs nothing.
+      constexpr int kSteps = 4000;
+      for (int step = 1; step <= kSteps; ++step) {
+        Vector3 place = corners[i] + (corners[i + 1] - corners[i]) * (double(step) / kSteps);
+        const Vector2 limit = panel.settings().half * 0.999;
+        place.head<2>() = place.head<2>().cwiseMax(-limit).cwiseMin(limit);
+        const Vector3 next = panel.force(input_at(place));
+        work += 0.5 * (force + next).dot(place - last);
+        most = std::max(most, std::abs(work));
+        force = next;
+        last = place;
+      }
+    }
+    EXPECT_LT(std::abs(work), 2e-3 * most + 1e-9) << loop;
+  }
+}
+
+// 1 um a tick: what the ground and its widgets change in that, and nothing more.
+TEST(Panel, IsContinuousAlongEveryWay) {
+  base::Random random(3);
+  for (int way = 0; way < repeats(4000); ++way) {
+    Panel panel(random_panel(random));
+    open(panel);
+    const double stiffest = 40.0 * panel.settings().stiffness;
+    Vector3 place = random_place(random, panel.settings());
+    const Vector3 goal = random_place(random, panel.settings());
+    const Vector3 step = (goal - place).normalized() * 1e-6;
+    Vector3 last = panel.force(input_at(place));
+    EXPECT_LT(last.norm(), Panel::kMostChange * kPanelTick + 1e-12);
+    // The tip may come out of nothing; from there on it moves.
+    for (int i = 0; i < 100; ++i) last = panel.force(input_at(place));
+    for (int i = 0; i < 60; ++i) {
+      place += step;
+      const Vector3 force = panel.force(input_at(place));
+      EXPECT_LT((force - last).norm(), stiffest * 1e-6 + 1e-9) << way;
+      last = force;
+    }
+  }
+}
+
+TEST(Panel, ForcesChangeByNoMoreThanTheLimitHoweverTheHandMoves) {
+  base::Random random(4);
+  for (int way = 0; way < repeats(20000); ++way) {
+    Panel panel(random_panel(random));
+    if (way % 2 == 0) open(panel);  // the others open onto the tip
+    Vector3 last = Vector3::Zero(), place = random_place(random, panel.settings());
+    const Vector3 goal = random_place(random, panel.settings());
+    for (int i = 0; i <= 20; ++i) {
+      const Vector3 force = panel.force(input_at(place + (goal - place) * (i / 20.0)));
+      ASSERT_TRUE(force.allFinite());
+      EXPECT_LE((force - last).norm(), Panel::kMostChange * kPanelTick * (1.0 + 1e-9));
+      last = force;
+    }
+  }
+}
+
+TEST(Panel, LetsAHandPassFromBehindAndCarriesItFromTheFront) {
+  PanelSettings settings;
+  Panel panel(settings);
+  open(panel);
+  panel.force(input_at({0.3, 0.0, 0.0}));  // beside it
+  for (double z = -0.03; z < 0.0; z += 0.0001)
+    EXPECT_EQ(panel.force(input_at({0.0, 0.0, z})), Vector3::Zero()) << z;
+  EXPECT_EQ(panel.side(), PanelSide::Behind);
+  for (double z = 0.001; z > -0.002; z -= 0.00001) panel.force(input_at({0.0, 0.0, z}));
+  EXPECT_NEAR(panel.force(input_at({0.0, 0.0, -0.002})).z(), 0.002 * settings.stiffness, 1e-6);
+}
+
+TEST(Panel, CarriesAHandFromBothSidesWhereItIsTold) {
+  PanelSettings settings;
+  settings.sides = TouchableSides::Both;
+  Panel panel(settings);
+  open(panel);
+  panel.force(input_at({0.3, 0.0, -0.01}));
+  for (double z = -0.01; z < 0.002; z += 0.00001) panel.force(input_at({0.0, 0.0, z}));
+  EXPECT_NEAR(panel.force(input_at({0.0, 0.0, 0.002})).z(), -0.002 * settings.stiffness, 1e-3);
+}
+
+TEST(Panel, LetsGoOfAHandThatIsFarThrough) {
+  Panel panel(PanelSettings{});
+  open(panel);
+  double most = 0.0;
+  for (double z = 0.001; z > -0.03; z -= 0.00002)
+    most = std::max(most, panel.force(input_at({0.0, 0.0, z})).z());
+  EXPECT_NEAR(most, panel.settings().most_force, 1e-6);
+  EXPECT_EQ(panel.side(), PanelSide::Behind);
+  EXPECT_EQ(panel.force(input_at({0.0, 0.0, -0.03})), Vector3::Zero());
+}
+
+TEST(Panel, ClickIsADropOfTheForce) {
+  PanelSettings settings;
+  settings.targets.push_back({.half = {0.02, 0.02}, .detent = 0.4});
+  Panel panel(settings);
+  open(panel);
+  std::vector<double> forces;
+  for (double z = 0.0; z > -0.005; z -= 0.00001) forces.push_back(panel.force(input_at({0.0, 0.0, z})).z());
+  const auto peak = std::max_element(forces.begin(), forces.begin() + 330);
+  const auto valley = std::min_element(peak, forces.end());
+  EXPECT_GT(*peak - *valley, 0.1);
+  EXPECT_NEAR(double(peak - forces.begin()) * 1e-5, settings.push_depth, 2e-4);
+}
+
+// A hand that wanders over it, on each device and at each rate: the energy that has flown into it is never
+// below nothing by more than the wells had to give.
+TEST(Panel, GivesAHandNoEnergy) {
+  base::Random random(5);
+  for (const devices::DeviceInfo& device : devices::device_profiles()) {
+    if (device.max_force == 0.0) continue;
+    for (const double rate : {500.0, 1000.0, 4000.0}) {
+      PanelSettings settings = random_panel(random);
+      settings.friction = 0.3;
+      double wells = 0.0;
+      for (PanelTarget& target : settings.targets) wells += target.well * target.half.minCoeff();
+      Panel panel(settings);
+      devices::SimulatedSettings simulated;
+      simulated.info = device;
+      simulated.rate = rate;
+      simulated.start = {0.0, 0.0, 0.03};
+      Vector3 goal = simulated.start;
+      devices::SimulatedDevice hand(simulated);
+      hand.set_target(goal);
+      devices::PointerState state;
+      Vector3 last = hand.true_position(), held = Vector3::Zero();
+      double energy = 0.0, least = 0.0;
+      for (int tick = 0; tick < int(3.0 * rate); ++tick) {
+        if (tick % int(0.2 * rate) == 0) {
+          goal = random_place(random, settings);
+          hand.set_target(goal);
+        }
+        hand.read(state);
+        energy -= held.dot(hand.true_position() - last);
+        last = hand.true_position();
+        least = std::min(least, energy);
+        EffectInput input = input_at(state.position, 1.0 / rate);
+        input.velocity = state.velocity;
+        input.device_mass = device.effective_mass;
+        held = panel.force(input);
+        hand.write(held);
+      }
+      EXPECT_GE(least, -wells - 1e-6) << device.name << " at " << rate;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace icome::haptics
