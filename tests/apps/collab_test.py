@@ -204,6 +204,28 @@ class LinkTest(SharedTest):
         done = run("info", link.replace(f"token={token}&", ""), "--json", ICOME_TOKEN=token)
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_a_store_that_lost_something_is_not_taken_for_a_new_one(self):
+        server = self.serve()
+        link = server.invite()
+        self.edit(link, BOX)
+        server.end()
+        key, designs = self.store / "key.pem", self.store / "designs.sqlite"
+        lost, aside = key.read_bytes(), designs.read_bytes()
+        key.unlink()
+        self.fails("serve", "--store", self.store, code=1, saying="key.pem: is not there, but")
+        key.write_bytes(lost)
+        key.chmod(0o600)
+        designs.write_bytes(b"")
+        for command in (["serve"], ["store", "list"], ["store", "check"], ["store", "backup", self.folder / "b"]):
+            self.fails(*command, "--store", self.store, code=1, saying="is empty, though")
+        designs.unlink()
+        self.fails("serve", "--store", self.store, code=1, saying="is not there, though")
+        designs.write_bytes(aside)
+        self.assertIn("1 design", self.succeeds("store", "list", "--store", self.store).stdout)
+        (self.folder / "empty").mkdir(mode=0o700)
+        self.fails("store", "list", "--store", self.folder / "empty", code=1, saying="is no store")
+        self.assertEqual(list((self.folder / "empty").iterdir()), [])
+
     def test_who_only_reads_leaves_nothing_in_the_store(self):
         server = self.serve()
         link = server.invite()
@@ -237,6 +259,8 @@ class LinkTest(SharedTest):
         self.assertEqual(folder.stat().st_mode & 0o077, 0)
         self.succeeds("keep", link, "--forget")
         self.fails("keep", link, "--forget", code=1, saying="not kept")
+        self.fails("keep", link, code=1, saying=server.listen)
+        self.assertEqual(list(folder.iterdir()), [])
         self.fails("info", link, code=1, saying=server.listen)
         self.fails("keep", code=2, saying="--list")
 

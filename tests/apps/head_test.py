@@ -143,6 +143,8 @@ class HeadTest(ProgramTest):
         table = self.write("table.toml", "[move_q]\n")
         self.fails("head", good, "--out", out, "--table", table, code=1, saying="table.toml:1:")
         self.fails("head", good, code=2, saying="--out")
+        self.fails("head", good, "--out", good, code=1, saying="is the recording itself")
+        self.assertEqual(good.read_text(), "0 0 0 0 0 0 0 1\n")
         self.fails("head", code=2, saying="TRACE")
         self.assertEqual(out.read_text(), "mine")
 

@@ -28,6 +28,9 @@ TEST(HeadTrace, NamesTheLineOfWhatIsWrong) {
             "head.txt:2: 7 of the eight numbers t x y z qx qy qz qw");
   EXPECT_EQ(wrong("0 0 0 0 0 0 0 1 1\n"), "head.txt:1: more than the eight numbers t x y z qx qy qz qw");
   EXPECT_EQ(wrong("0 0 0 0 0 0 0 0\n"), "head.txt:1: the quaternion qx qy qz qw has no direction");
+  EXPECT_EQ(wrong("0.1,,,1,0,0,0,0,0,1\n"), "head.txt:1: x is empty");
+  EXPECT_EQ(wrong(",0,0,1,0,0,0,1\n"), "head.txt:1: t is empty");
+  EXPECT_EQ(wrong("0 -2e6 0 0 0 0 0 1\n"), "head.txt:1: a head is at most 1e+06 m away");
   EXPECT_EQ(wrong("0 0 inf 0 0 0 0 1\n"), "head.txt:1: inf is no finite number");
   EXPECT_EQ(wrong("2 0 0 0 0 0 0 1\n\n1 0 0 0 0 0 0 1\n"), "head.txt:3: time goes back, from 2 to 1");
   EXPECT_EQ(wrong("0 0 0 0 0 0 0 1\nt,x,y,z,qx,qy,qz,qw\n"), "head.txt:2: t is no finite number")

@@ -5,6 +5,7 @@
 
 #include "collab/client/kept_design.h"
 #include "collab/server/served_design.h"
+#include "files/design_files.h"
 #include "own_folder.h"
 #include "session/session_sharing.h"
 #include "session/sessions.h"
@@ -166,6 +167,43 @@ TEST_F(SharingKept, ADamagedCopyKeepsNobodyFromTheServer) {
   EXPECT_EQ(ann->sharing().state()->connection, ConversationState::Live);
   EXPECT_TRUE(fs::exists(copy.string() + ".former")) << "somebody may save something of it";
   run_until(*ann, [&] { return fs::exists(copy); });
+}
+
+// What was not sent when the copy had to give way can be opened, however often that happens.
+TEST_F(SharingKept, WhatIsPutAsideCanBeOpenedAndIsNeverReplaced) {
+  auto ann = open();
+  add_box(*ann, world::at(0, 0, 0), "leg");
+  ann->sharing().keep(true);
+  until_sent(*ann);
+  close(std::move(ann));
+  served_.stop();
+  ann = open();
+  add_box(*ann, world::at(1, 0, 0), "unsent");
+  close(std::move(ann));
+  const fs::path copy = collab::KeptDesign::all(folder_).at(0) / "copy", again = folder_ / "again";
+  fs::copy_file(copy, again);
+  const auto kept = collab::KeptDesign::make(folder_, collab::design_address(link_).value());
+  ASSERT_TRUE(kept) << kept.error().message;
+  std::vector<fs::path> aside;
+  for (int i = 0; i < 3; ++i) {
+    const auto put = kept->put_aside();
+    ASSERT_TRUE(put) << put.error().message;
+    EXPECT_EQ(std::ranges::count(aside, *put), 0);
+    aside.push_back(*put);
+    fs::copy_file(again, copy);
+  }
+  for (const fs::path& path : aside) {
+    const auto design = files::read_design(path);
+    ASSERT_TRUE(design) << design.error().message;
+    std::vector<std::string> names;
+    for (const auto& [id, object] : design->world.objects()) names.push_back(object.name);
+    EXPECT_EQ(std::ranges::count(names, "leg"), 1);
+    EXPECT_EQ(std::ranges::count(names, "unsent"), 1);
+  }
+  std::ofstream(copy) << "damaged";
+  const auto damaged = kept->put_aside();
+  ASSERT_TRUE(damaged);
+  EXPECT_EQ(fs::file_size(*damaged), 7U);
 }
 
 TEST_F(SharingKept, IsAnotherProgramsOnlyOnce) {

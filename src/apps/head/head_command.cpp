@@ -35,7 +35,8 @@ constexpr const char* kHeadNotes =
     "one at rest. Each row of VIEW.csv (t,x,y,z,qx,qy,qz,qw) is the movement of the view from rest, in\n"
     "the frame of the head at rest: the mean of the last five samples, with each move along and turn\n"
     "about x, y and z (taken apart as turns about y, then x, then z) through the transfer function of\n"
-    "its axis.\n"
+    "its axis. A turn beyond half a turn comes in from the other side. A table file changes what it\n"
+    "names; the rest is as in table 5.4.\n"
     "\n"
     "JSON: {trace, out, samples, seconds, rate_hz, head: {move_m: [x,y,z], turn_deg: [x,y,z]},\n"
     "view: ...}, the most that head and view move and turn.";
@@ -169,6 +170,9 @@ int run_head(const HeadOptions& options) {
     return print_answer(interaction::transfer_table_text(interaction::HeadTransfer::of_thesis()));
   const auto transfer = transfer_of(options);
   if (!transfer) return head_failed(transfer.error());
+  std::error_code error;
+  if (std::filesystem::equivalent(options.trace, options.out, error))
+    return head_failed({options.out.string() + ": is the recording itself; give --out another name."});
   auto out = io::NewFile::create(options.out);
   if (!out) return head_failed(out.error());
   StatusLine status;

@@ -67,29 +67,38 @@ int list_kept(const std::filesystem::path& folder, bool json) {
   return code != 0 ? code : printed;
 }
 
-/// Forgets the copy, unless that would lose work.
+/// Forgets the copy and what was put aside, unless that would lose work.
 int forget_kept(const std::filesystem::path& folder, const collab::DesignAddress& address) {
-  const auto kept = collab::KeptDesign::find(folder, address);
-  if (!kept) return failed({collab::shown_address(address) + ": is not kept here."});
-  if (!*kept) return failed({"Another program works with the copy that is kept here: close it first."});
-  if (const auto copy = (*kept)->read(); copy && *copy && !(*copy)->edits.empty() &&
-                                         !ask(fmt::format("{} edits were not sent yet, and go with the copy. "
-                                                          "Forget it all the same?",
-                                                          (*copy)->edits.size())))
+  std::error_code error;
+  if (!std::filesystem::exists(collab::KeptDesign::place_of(folder, address), error))
+    return failed({collab::shown_address(address) + ": is not kept here."});
+  const auto kept = collab::KeptDesign::make(folder, address);
+  if (!kept) return failed(kept.error());
+  if (const auto copy = kept->read(); copy && *copy && !(*copy)->edits.empty() &&
+                                      !ask(fmt::format("{} edits were not sent yet, and go with the copy. "
+                                                       "Forget it all the same?",
+                                                       (*copy)->edits.size())))
     return failed({"Nothing was forgotten."});
-  (*kept)->remove();
+  kept->remove();
   tell(collab::shown_address(address) + ": is not kept any more.");
   return 0;
 }
 
-/// The copy that there is, if any; a damaged one is put aside.
-std::optional<collab::KeptCopy> former_copy(const collab::KeptDesign& kept) {
+/// The copy that there is, if any; a damaged one is put aside. Fails where that cannot be done.
+base::Result<std::optional<collab::KeptCopy>> former_copy(const collab::KeptDesign& kept) {
   auto copy = kept.read();
-  if (copy) return std::move(*copy);
-  tell(copy.error().message + " It is put aside as copy.former, and the design is fetched anew.");
-  kept.put_aside();
+  if (copy) return copy;
+  const auto aside = kept.put_aside();
+  if (!aside) return tl::unexpected(aside.error());
+  tell(fmt::format("{} It is put aside as {}.", copy.error().message, aside->string()));
   return std::nullopt;
 }
+
+/// What became of the edits that were made without the server.
+struct SentEdits {
+  std::size_t sent = 0;
+  std::vector<collab::Dropped> dropped;
+};
 
 /// "leg, by Ann; arm, by Bob": some of the things that were changed both here and by others.
 std::string conflicts_text(const collab::Conversation& talk) {
@@ -104,8 +113,8 @@ std::string conflicts_text(const collab::Conversation& talk) {
 }
 
 /// Sends what was done without the server, and tells what became of it.
-base::Result<void> send_former(collab::Connection& connection, const collab::KeptCopy& former,
-                               StatusLine& status) {
+base::Result<SentEdits> send_former(collab::Connection& connection, const collab::KeptCopy& former,
+                                    StatusLine& status) {
   if (!connection.talk().conflicts().empty()) {
     const std::string things = conflicts_text(connection.talk());
     leave_design(connection);
@@ -114,15 +123,28 @@ base::Result<void> send_former(collab::Connection& connection, const collab::Kep
                     "in the window (icome LINK) to choose; nothing was sent.",
                     collab::shown_address(connection.talk().address()), things));
   }
-  if (const auto sent = wait_until_durable(connection, status); !sent) return sent;
+  if (const auto sent = wait_until_durable(connection, status); !sent) return tl::unexpected(sent.error());
+  SentEdits edits;
   for (const collab::Seen& it : connection.talk().take_seen())
-    if (const auto* const dropped = std::get_if<collab::Dropped>(&it))
+    if (const auto* const dropped = std::get_if<collab::Dropped>(&it)) {
       tell(fmt::format("\"{}\" did not come to be: {}", dropped->name, dropped->why));
-  const std::size_t count = former.edits.size();
-  if (count > 0)
-    tell(count == 1 ? "One edit that was made without the server was sent."
-                    : fmt::format("{} edits that were made without the server were sent.", count));
-  return {};
+      edits.dropped.push_back(*dropped);
+    }
+  edits.sent = former.edits.size() - std::min(former.edits.size(), edits.dropped.size());
+  if (edits.sent > 0)
+    tell(edits.sent == 1 ? "One edit that was made without the server was sent."
+                         : fmt::format("{} edits that were made without the server were sent.", edits.sent));
+  return edits;
+}
+
+/// "--json" of a design that was kept.
+std::string kept_json(const std::string& shown, const collab::KeptCopy& copy, const SentEdits& edits) {
+  nlohmann::json dropped = nlohmann::json::array();
+  for (const collab::Dropped& it : edits.dropped) dropped.push_back({{"name", it.name}, {"why", it.why}});
+  const nlohmann::json json{{"design", shown},           {"kept", copy.at},
+                            {"sequence", copy.sequence}, {"objects", copy.world.objects().size()},
+                            {"sent", edits.sent},        {"dropped", dropped}};
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 /// Fetches the design, or what is new of it, and sends what was done without the server.
@@ -130,34 +152,41 @@ int keep_design(const std::filesystem::path& folder, const collab::DesignAddress
   const auto kept = collab::KeptDesign::make(folder, address);
   if (!kept) return failed(kept.error());
   StatusLine status;
-  const auto former = former_copy(*kept);
+  const auto read = former_copy(*kept);
+  if (!read) return failed(read.error());
+  const std::optional<collab::KeptCopy>& former = *read;
   auto connection =
       former ? join_design(address, status, *kept, *former) : join_design(collab::link_text(address), status);
-  if (!connection) return failed(connection.error());
-  if (former)
-    if (const auto sent = send_former(**connection, *former, status); !sent) return failed(sent.error());
+  if (!connection) {
+    kept->remove_if_empty();
+    return failed(connection.error());
+  }
+  SentEdits edits;
+  if (former) {
+    auto sent = send_former(**connection, *former, status);
+    if (!sent) return failed(sent.error());
+    edits = std::move(*sent);
+  }
   collab::Conversation& talk = (*connection)->talk();
   auto copy = talk.keep();
   leave_design(**connection);
   if (!copy) return failed({"The design changes too fast to be kept now: try again."});
   copy->at = collab::wall_milliseconds();
   if (former && former->history != copy->history) {
-    tell(
-        "The design was restored from an earlier state: the copy of the later one is put aside as "
-        "copy.former.");
-    kept->put_aside();
+    const auto aside = kept->put_aside();
+    if (!aside) return failed(aside.error());
+    tell(fmt::format(
+        "The design was restored from an earlier state: what was here before is put aside as {}, which "
+        "icome opens.",
+        aside->string()));
   }
   if (const auto written = kept->write(*copy); !written) return failed(written.error());
   const std::string shown = collab::shown_address(address);
-  if (json)
-    return print_answer(nlohmann::json{{"design", shown},
-                                       {"kept", copy->at},
-                                       {"sequence", copy->sequence},
-                                       {"objects", copy->world.objects().size()}}
-                            .dump() +
-                        "\n");
-  return print_answer(fmt::format("{}: kept, with edit {}. icome opens it without its server, too.\n", shown,
-                                  copy->sequence));
+  const int printed =
+      print_answer(json ? kept_json(shown, *copy, edits)
+                        : fmt::format("{}: kept, with edit {}. icome opens it without its server, too.\n",
+                                      shown, copy->sequence));
+  return edits.dropped.empty() ? printed : kFailed;
 }
 
 }  // namespace
@@ -171,8 +200,8 @@ void add_keep(CLI::App& app, KeepOptions& options) {
       ->excludes(address)
       ->excludes(forget);
   keep.add_flag("--json", options.json,
-                "As JSON: design, kept (ms since 1970), sequence, objects; in a list "
-                "also unsent");
+                "As JSON: design, kept (ms since 1970), sequence, objects, sent, dropped: [{name, why}]; "
+                "in a list also unsent");
   keep.callback([&options] {
     if (!options.list && options.address.empty())
       throw CLI::RequiredError("keep: give the link of a design, or --list");

@@ -110,6 +110,8 @@ base::Result<int> store_task(const ServingOptions& options) {
   const bool restores = options.task == "store restore";
   const auto store = restores ? collab::Store::make(options.store) : collab::Store::open(options.store);
   if (!store) return tl::unexpected(store.error());
+  if (!restores)
+    if (const auto there = store->demand_designs(); !there) return tl::unexpected(there.error());
   if (options.task == "store list") return list_designs(*store, options.json);
   if (options.task == "store check") return check_designs(*store, options.json);
   if (options.task == "store export") return export_design(options, *store);

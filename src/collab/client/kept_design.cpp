@@ -8,6 +8,7 @@
 #include "collab/storage/private_file.h"
 #include "collab/storage/random_bytes.h"
 #include "collab/storage/store_folder.h"
+#include "files/design_files.h"
 #include "io/file_bytes.h"
 #include "io/new_file.h"
 
@@ -19,7 +20,25 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostCopyBytes = std::uint64_t{4} << 30;
 constexpr std::size_t kNameBytes = 16;  // of the hash, in a folder's name
 
+constexpr const char* kLockName = "in_use.lock";
+
 fs::path copy_in(const fs::path& place) { return place / "copy"; }
+
+/// A name under which nothing was put aside yet: "copy.former", "copy.former-2".
+std::string free_former(const fs::path& place) {
+  std::error_code error;
+  for (int i = 1;; ++i) {
+    std::string name = i == 1 ? "copy.former" : fmt::format("copy.former-{}", i);
+    if (!fs::exists(place / name, error) && !fs::exists(place / (name + ".icome"), error)) return name;
+  }
+}
+
+/// The world of a copy with what was not sent, but for what does not fit to it.
+world::World world_with_edits(const KeptCopy& copy) {
+  world::World world = copy.world;
+  for (const KeptEdit& it : copy.edits) (void)world::apply(world, it.edit);
+  return world;
+}
 
 }  // namespace
 
@@ -39,7 +58,7 @@ base::Result<KeptDesign> KeptDesign::make(const fs::path& folder, const DesignAd
   const fs::path place = place_of(folder, address);
   if (const auto made = StoreFolder::make(folder); !made) return tl::unexpected(made.error());
   if (const auto made = StoreFolder::make(place); !made) return tl::unexpected(made.error());
-  const fs::path lock_path = place / "in_use.lock";
+  const fs::path lock_path = place / kLockName;
   if (const auto made = make_private_file(lock_path, {}); !made) return tl::unexpected(made.error());
   auto lock = io::OpenFile::open(lock_path, io::OpenFile::Use::Change);
   if (!lock) return tl::unexpected(lock.error());
@@ -96,9 +115,26 @@ base::Result<void> KeptDesign::resume(Conversation& talk, const KeptCopy& copy) 
   return write(*next);
 }
 
-void KeptDesign::put_aside() const {
-  std::error_code ignored;
-  fs::rename(copy_in(place_), place_ / "copy.former", ignored);
+base::Result<fs::path> KeptDesign::put_aside() const {
+  const std::string former = free_former(place_);
+  fs::path shown = place_ / former;
+  if (const auto copy = read(); copy && *copy) {
+    const fs::path design = place_ / (former + ".icome");
+    if (files::write_design(design, world_with_edits(**copy))) shown = design;
+  }
+  std::error_code error;
+  fs::rename(copy_in(place_), place_ / former, error);
+  if (error)
+    return base::fail(
+        fmt::format("{}: cannot be put aside ({}).", copy_in(place_).string(), error.message()));
+  return shown;
+}
+
+void KeptDesign::remove_if_empty() const {
+  std::error_code error;
+  for (fs::directory_iterator it(place_, error), end; !error && it != end; it.increment(error))
+    if (it->path().filename() != kLockName) return;
+  if (!error) remove();
 }
 
 void KeptDesign::remove() const {

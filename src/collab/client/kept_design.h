@@ -37,11 +37,15 @@ class KeptDesign {
   /// Has a conversation go on from the copy, with the copy's key, and keeps what follows from that in its
   /// place, so that no other program goes on from the same copy. Before the first connection.
   base::Result<void> resume(Conversation& talk, const KeptCopy& copy) const;
-  /// Leaves the copy beside those that are written from now on, under another name: it is damaged, or of
-  /// another history of the design.
-  void put_aside() const;
-  /// Keeps it no longer.
+  /// Leaves the copy beside those that are written from now on, under a name of its own: it is damaged, or of
+  /// another history of the design. Where it can be read, what it holds, with what was not sent, becomes a
+  /// design file beside it. Gives the path for people: of that file, else of the copy. Fails where it cannot
+  /// be put aside.
+  base::Result<std::filesystem::path> put_aside() const;
+  /// Keeps it no longer, nor what was put aside.
   void remove() const;
+  /// As remove(), where nothing was written and nothing put aside.
+  void remove_if_empty() const;
 
  private:
   KeptDesign(std::filesystem::path place, io::OpenFile lock)

@@ -66,8 +66,16 @@ base::Result<ServedFiles> certificate_files(const ServeSettings& settings, const
     return base::fail("A certificate goes with its key: give both, --certificate and --key.");
   if (!settings.certificate.empty()) return ServedFiles{settings.certificate, settings.key};
   std::error_code error;
-  if (!std::filesystem::exists(folder.certificate(), error) ||
-      !std::filesystem::exists(folder.certificate_key(), error)) {
+  const bool has_certificate = std::filesystem::exists(folder.certificate(), error);
+  const bool has_key = std::filesystem::exists(folder.certificate_key(), error);
+  if (has_certificate != has_key)
+    return base::fail(
+        fmt::format("{0}: is not there, but {1} is. Bring it back from a backup. With a new pair (remove "
+                    "{1}) no link that was "
+                    "given out fits any more.",
+                    (has_key ? folder.certificate() : folder.certificate_key()).string(),
+                    (has_key ? folder.certificate_key() : folder.certificate()).string()));
+  if (!has_certificate) {
     if (const auto made = make_certificate(folder.certificate(), folder.certificate_key()); !made)
       return tl::unexpected(made.error());
   }

@@ -1,5 +1,7 @@
 #include "collab/storage/store.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "collab/storage/postgres_op_log.h"
@@ -28,24 +30,44 @@ bool is_database_address(std::string_view text) {
 }
 
 base::Result<Store> Store::place(const std::string& text, bool makes) {
-  if (is_database_address(text)) return Store(text, without_secrets(text), std::nullopt);
+  if (is_database_address(text)) return Store(text, without_secrets(text), std::nullopt, makes);
   const auto path = text.empty() ? StoreFolder::default_path() : base::Result<std::filesystem::path>(text);
   if (!path) return tl::unexpected(path.error());
   const auto folder = makes ? StoreFolder::make(*path) : StoreFolder::open(*path);
   if (!folder) return tl::unexpected(folder.error());
-  return Store(text, folder->path().string(), *folder);
+  return Store(text, folder->path().string(), *folder, makes);
 }
 
 base::Result<Store> Store::open(const std::string& text) { return place(text, false); }
 
 base::Result<Store> Store::make(const std::string& text) { return place(text, true); }
 
+base::Result<void> Store::demand_designs() const {
+  if (!folder_) return {};
+  const StoreFolder& folder = *folder_;
+  std::error_code error;
+  const bool is_there = std::filesystem::exists(folder.designs(), error);
+  if (is_there && std::filesystem::file_size(folder.designs(), error) > 0) return {};
+  const auto served = folder.address();
+  if (served && *served)
+    return base::fail(
+        fmt::format("{}: {}, though this store was served before. Restore a backup (icome store restore), "
+                    "or, to begin anew "
+                    "without designs, remove {} too.",
+                    folder.designs().string(), is_there ? "is empty" : "is not there",
+                    (folder.path() / "address").string()));
+  if (makes_ || is_there) return {};
+  return base::fail(folder.path().string() + ": is no store; there is no designs.sqlite in it.");
+}
+
 base::Result<std::unique_ptr<OpLog>> Store::log() const {
   const auto any = [](auto log) -> base::Result<std::unique_ptr<OpLog>> {
     if (!log) return tl::unexpected(log.error());
     return std::make_unique<std::decay_t<decltype(*log)>>(std::move(*log));
   };
-  return folder_ ? any(SqliteOpLog::open(folder_->designs())) : any(PostgresOpLog::open(text_));
+  if (!folder_) return any(PostgresOpLog::open(text_));
+  if (const auto there = demand_designs(); !there) return tl::unexpected(there.error());
+  return any(SqliteOpLog::open(folder_->designs()));
 }
 
 base::Result<TokenSigner> Store::signer() const {

@@ -24,6 +24,10 @@ class Store {
   /// Null for a database.
   const StoreFolder* folder() const { return folder_ ? &*folder_ : nullptr; }
 
+  /// Fails where the designs should be there and are not, so that nobody takes a store that lost them for a
+  /// new one, or another folder for a store.
+  base::Result<void> demand_designs() const;
+  /// Fails as demand_designs() does, too.
   base::Result<std::unique_ptr<OpLog>> log() const;
   /// Signs invitations, with the same secret for all servers of the store, which is made where there is none.
   base::Result<TokenSigner> signer() const;
@@ -33,12 +37,13 @@ class Store {
   base::Result<std::optional<ServedAddress>> address() const;
 
  private:
-  Store(std::string text, std::string shown, std::optional<StoreFolder> folder)
-      : text_(std::move(text)), shown_(std::move(shown)), folder_(std::move(folder)) {}
+  Store(std::string text, std::string shown, std::optional<StoreFolder> folder, bool makes)
+      : text_(std::move(text)), shown_(std::move(shown)), folder_(std::move(folder)), makes_(makes) {}
   static base::Result<Store> place(const std::string& text, bool makes);
   std::string text_;
   std::string shown_;
   std::optional<StoreFolder> folder_;
+  bool makes_;
 };
 
 /// Is the text after --store the address of a database, "postgresql://..." or "postgres://...", and not a

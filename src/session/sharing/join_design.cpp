@@ -31,8 +31,8 @@ std::optional<collab::KeptCopy> kept_copy(const collab::DesignAddress& address,
   joined.kept = std::make_shared<const collab::KeptDesign>(std::move(**kept));
   auto copy = joined.kept->read();
   if (copy) return std::move(*copy);
-  joined.kept->put_aside();
-  joined.damage = copy.error().message + " It stays beside the new one, as copy.former.";
+  joined.damage = copy.error().message;
+  if (const auto aside = joined.kept->put_aside()) joined.damage += " It stays as " + aside->string() + ".";
   return std::nullopt;
 }
 
@@ -64,7 +64,10 @@ base::Result<files::LoadedDesign> join_design(const collab::DesignAddress& addre
   if (done && !*done) return base::fail("interrupted");
   if (!done && !copy) return tl::unexpected(done.error());
   const auto now = talk.keep();
-  if (copy && now && now->history != copy->history) joined.kept->put_aside();
+  if (copy && now && now->history != copy->history)
+    if (const auto aside = joined.kept->put_aside())
+      joined.damage = "The design was restored from an earlier state. What was here before stays as " +
+                      aside->string() + ", which icome opens.";
   files::LoadedDesign design;
   design.world = talk.replica().world();
   if (!done) {

@@ -15,7 +15,7 @@ struct JoinedDesign {
   std::unique_ptr<collab::Connection> connection = nullptr;  // null: the server lets one in no more
   std::shared_ptr<const collab::KeptDesign> kept = nullptr;  // not null: kept for offline work
   std::int64_t kept_at = 0;   // ms since 1970, of the copy that one goes on with; 0: none
-  std::string damage = {};    // a copy that was kept cannot be read: the reason
+  std::string damage = {};    // a copy that was kept was put aside: the reason, and where it is
   std::string why_away = {};  // the copy is what there is, as the server is not to be reached: the reason
 };
 
