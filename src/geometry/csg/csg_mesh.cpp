@@ -9,9 +9,8 @@
 #include "geometry/contour/contour_error.h"
 #include "geometry/csg/csg_cut.h"
 #include "geometry/csg/csg_leaf_surfaces.h"
-#include "geometry/csg/csg_part.h"
+#include "geometry/csg/csg_mesh_check.h"
 #include "geometry/csg/csg_solid.h"
-#include "geometry/tree/triangle_tree.h"
 
 namespace icome::geometry {
 namespace {
@@ -19,7 +18,7 @@ namespace {
 /// Walls below this many cells may slip between the points of a grid.
 constexpr double kThinCells = 2.0;
 constexpr double kMakingPart = 0.8;  // of the whole work, without measuring
-constexpr double kNearCells = 2.0;   // a place of the surface is not lost if the mesh is so near
+constexpr double kShiftCells = 0.1;  // what is cut out is off by less
 constexpr int kMostTries = 3;        // with cells that get smaller
 constexpr double kFiner = 2.0;
 /// Distances from a primitive are trusted to this part of the coordinates.
@@ -36,37 +35,6 @@ bool may_cross(const CsgLeafSurfaces& surfaces, const Bounds& box) {
     return !crossed;
   });
   return crossed;
-}
-
-/// Is there solid behind the place, and none before it, by more than rounding? Faces that coincide have
-/// slivers between them that are only rounding.
-bool is_more_than_rounding(const CsgProgram& program, const SurfacePoint& place) {
-  constexpr double kRounding = 1e-9;  // of the coordinates
-  const Vector3 off = kRounding * largest_coordinate(program) * place.normal;
-  return program.inside(place.point - off) && !program.inside(place.point + off);
-}
-
-/// A place of the solid's surface that is farther from the mesh than `reach` (m), if random trials find one.
-/// For a primitive with little share in the surface, many places are discarded before one counts, as for two
-/// large spheres whose intersection is a thin lens.
-std::optional<Vector3> missing_place(const CsgProgram& program, const TriangleMesh& mesh, double reach) {
-  constexpr std::size_t kMostAsked = 2000;     // atoms
-  constexpr int kFound = 48;                   // for each
-  constexpr std::size_t kMostThrown = 20'000;  // for all together
-  base::Random random(2);
-  const TriangleTree triangles(mesh);
-  const std::size_t stride = 1 + program.atoms().size() / kMostAsked;
-  const std::size_t asked = 1 + program.atoms().size() / stride;
-  for (std::uint32_t atom = 0; atom < program.atoms().size(); atom += std::uint32_t(stride)) {
-    int found = 0;
-    for (std::size_t i = 0; i < kMostThrown / asked && found < kFound; ++i) {
-      const auto place = random_place(program, atom, random);
-      if (!place || !is_more_than_rounding(program, *place)) continue;
-      if (!triangles.nearest(place->point, reach)) return place->point;
-      ++found;
-    }
-  }
-  return std::nullopt;
 }
 
 /// Meshes one tree by cutting out, by sampling, or by one after the other.
@@ -100,7 +68,7 @@ class CsgMesher {
         if (stopped_ || (!made && is_limited_in_triangles() && !best)) return made;
         can_cut = can_cut && (made || !cuts);  // too much work gets more with smaller cells
         if (!made) continue;
-        made->lost = missing_place(program(), made->mesh, kNearCells * options_.cell);
+        made->lost = place_that_mesh_lacks(program(), made->mesh, cell, cuts ? kShiftCells * cell : 0.0);
         best = std::move(*made);
         if (!best->lost) return measured(std::move(*best), cell);
       }

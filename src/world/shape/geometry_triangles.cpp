@@ -132,11 +132,12 @@ base::Result<Triangles> ImplicitGeometry::triangles(double tolerance) const {
     const auto lost = geometry::place_that_mesh_lacks(*surface_, 0.0, (*made)->mesh, 2.0 * cell);
     if (!lost) return made;
     if (cell <= finer) continue;
-    if (!(*made)->mesh.triangles.empty()) return made;
-    return base::fail(fmt::format(
-        "The solid is too thin to be made triangles, as at ({:.4g}, {:.4g}, {:.4g}) m of its own frame: make "
-        "its box smaller or itself thicker, or keep it in a format that holds formulas, such as .icome.",
-        lost->x(), lost->y(), lost->z()));
+    return base::fail(
+        fmt::format("Parts of the solid are too thin or too small to be made triangles, as at ({:.4g}, "
+                    "{:.4g}, {:.4g}) m of its "
+                    "own frame: make its box smaller or them larger, or keep it in a format that holds "
+                    "formulas, such as .icome.",
+                    lost->x(), lost->y(), lost->z()));
   }
 }
 
