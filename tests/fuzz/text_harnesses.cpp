@@ -1,4 +1,4 @@
-// Texts that people write: formulas, scripts of operations, study files.
+// Texts that people write: formulas, scripts of operations, study files, elements.
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -8,6 +8,8 @@
 #include "fuzz/harness.h"
 #include "geometry/implicit/formula.h"
 #include "geometry/implicit/plain_formula.h"
+#include "interaction/elements/element_file.h"
+#include "interaction/elements/element_layout.h"
 #include "places.h"
 #include "study/definition/study_reader.h"
 
@@ -62,6 +64,16 @@ void run_study(std::string_view bytes) {
   if (!study) require_told(study.error());
 }
 
+void run_element(std::string_view bytes) {
+  const auto element = interaction::read_element(bytes, "f");
+  if (!element) return require_told(element.error());
+  const auto measure = [](const std::string& text) { return 0.8 * double(text.size()); };
+  const auto layout = interaction::lay_out(*element, 0, measure);
+  require(layout.widgets.size() == element->widgets.size(), "every widget has its place");
+  for (const interaction::LaidWidget& laid : layout.widgets)
+    require(laid.centre.allFinite() && laid.half.allFinite(), "places are finite");
+}
+
 std::vector<std::string> formula_seeds() {
   return {"x^2 + y^2 + z^2 - 0.0025",
           "z - 0.005*sin(60*x + 3*t)*cos(60*y)",
@@ -83,9 +95,17 @@ std::vector<std::string> study_seeds() {
   return all;
 }
 
-constexpr std::array<Harness, 3> kText{{{"formula", run_formula, formula_seeds},
+std::vector<std::string> element_seeds() {
+  std::vector<std::string> all;
+  for (const char* name : {"colours", "modelling", "clear"})
+    all.push_back(text_of(places::project_folder() / "data" / "menus" / (std::string(name) + ".toml")));
+  return all;
+}
+
+constexpr std::array<Harness, 4> kText{{{"formula", run_formula, formula_seeds},
                                         {"script", run_script, script_seeds},
-                                        {"study", run_study, study_seeds}}};
+                                        {"study", run_study, study_seeds},
+                                        {"element", run_element, element_seeds}}};
 
 }  // namespace
 

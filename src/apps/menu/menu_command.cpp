@@ -90,9 +90,9 @@ const char* word_of(interaction::ChosenBy by) {
   return "name";
 }
 
-Json json_of(const base::Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+Json place_json(const base::Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
-std::string dumped(const Json& json) {
+std::string menu_json_text(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -114,8 +114,8 @@ Json items_of(const Prepared& prepared, const std::vector<const Widget*>& open) 
     Json item{{"name", widget.name},
               {"text", laid.lines.front()},
               {"kind", word_of(widget.kind)},
-              {"centre", json_of(frame.in_world(laid.centre))},
-              {"normal", json_of(frame.normal())},
+              {"centre", place_json(frame.in_world(laid.centre))},
+              {"normal", place_json(frame.normal())},
               {"width", 2.0 * laid.half.x()},
               {"height", 2.0 * laid.half.y()},
               {"enabled", widget.enabled},
@@ -131,10 +131,10 @@ Json items_of(const Prepared& prepared, const std::vector<const Widget*>& open) 
 }
 
 std::string layout_json(const Prepared& prepared, const MenuOptions& options) {
-  return dumped({{"file", options.file.string()},
-                 {"kind", word_of(prepared.element.kind)},
-                 {"language", prepared.element.languages[prepared.language]},
-                 {"items", items_of(prepared, {})}});
+  return menu_json_text({{"file", options.file.string()},
+                         {"kind", word_of(prepared.element.kind)},
+                         {"language", prepared.element.languages[prepared.language]},
+                         {"items", items_of(prepared, {})}});
 }
 
 void append_rows(const Json& items, const std::string& indent, std::string& text) {
@@ -169,17 +169,17 @@ std::string trial_json(const MenuTrial& trial) {
     names.push_back(choice.name);
     choices.push_back({{"name", choice.name}, {"by", word_of(choice.by)}, {"time_s", choice.time}});
   }
-  return dumped({{"chosen", names},
-                 {"choices", choices},
-                 {"seconds", trial.seconds},
-                 {"near_s", trial.near_seconds},
-                 {"pushes", trial.pushes},
-                 {"max_force_n", trial.max_force},
-                 {"max_force_step_n", trial.max_force_step},
-                 {"tick_us",
-                  {{"median", share_of(trial.tick_us, 0.5)},
-                   {"p99", share_of(trial.tick_us, 0.99)},
-                   {"max", trial.tick_us.back()}}}});
+  return menu_json_text({{"chosen", names},
+                         {"choices", choices},
+                         {"seconds", trial.seconds},
+                         {"near_s", trial.near_seconds},
+                         {"pushes", trial.pushes},
+                         {"max_force_n", trial.max_force},
+                         {"max_force_step_n", trial.max_force_step},
+                         {"tick_us",
+                          {{"median", share_of(trial.tick_us, 0.5)},
+                           {"p99", share_of(trial.tick_us, 0.99)},
+                           {"max", trial.tick_us.back()}}}});
 }
 
 std::string trial_text(const MenuTrial& trial) {

@@ -10,6 +10,7 @@
 #include "geometry/csg_trees.h"
 #include "geometry/mesh/mesh_sheets.h"
 #include "geometry/mesh/mesh_topology.h"
+#include "repeats.h"
 
 namespace icome::geometry {
 namespace {
@@ -80,7 +81,7 @@ std::vector<ThinSolid> thin_solids() {
 TEST(CsgCut, ThinSolidsKeepTheirVolumeAtAnyOrientation) {
   Random random(7);
   for (const ThinSolid& solid : thin_solids()) {
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < repeats(3); ++i) {
       SCOPED_TRACE(testing::Message() << solid.name << " " << i);
       const CsgTree tree = i == 0 ? solid.tree : placed_tree(solid.tree, turned(random));
       const auto made = contour(tree, {.cell = bounds(tree).sizes().maxCoeff() / 60, .measures = false});

@@ -16,6 +16,7 @@
 #include "geometry/meshes.h"
 #include "geometry/tree/triangle_tree.h"
 #include "places.h"
+#include "repeats.h"
 
 namespace icome::geometry {
 namespace loop_surface_test {
@@ -178,7 +179,7 @@ TEST(LoopSurface, TakesRealControlMeshes) {
     for (const Vector3& p : mesh->positions) ASSERT_TRUE(p.allFinite());
     base::Random random(1);
     int agreed = 0, asked = 0;
-    for (int trial = 0; trial < 300 && (*surface)->closed(); ++trial) {
+    for (int trial = 0; trial < repeats(300) && (*surface)->closed(); ++trial) {
       const Vector3 p =
           box.min() +
           Vector3(random.uniform(), random.uniform(), random.uniform()).cwiseProduct(box.diagonal());

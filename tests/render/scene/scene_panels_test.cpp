@@ -54,6 +54,34 @@ TEST(ScenePanels, StandWhereTheirPlaceIsSeenAndOverAll) {
   EXPECT_TRUE(is_blue(middle(image)));
 }
 
+// Turned and seen from aside, each of its quarters is where the camera sees that place of the scene.
+TEST(ScenePanels, LieInTheSceneWhereTheyAreToldToAndOverAll) {
+  DrawnWorld it;
+  it.add(box(1.0), at(0.0, 0.0, 0.0), coloured(kBlue));
+  const auto scene = ScenePublisher().publish(it.world);
+  const Camera camera = camera_at({0.4, 0.7, 3.0});
+  const Vector3 middle_of_it(0.1, 0.0, 0.2);  // within the box
+  const Vector3 right = 0.5 * Vector3(std::cos(0.6), 0.0, std::sin(0.6)), up = 0.4 * Vector3::UnitY();
+  SceneLook look = plain_look();
+  look.overlay.panels.push_back(
+      {.picture = picture(64, 64, kRedPixel, kGreenPixel), .at = middle_of_it, .lying = {{right, up}}});
+  const charts::Image image = LiveRenderer().draw(*scene, camera, look);
+  const auto seen_at = [&](double x, double y) {
+    const auto seen = project(camera, middle_of_it + x * right + y * up);
+    return at_share(image, seen->x, seen->y);
+  };
+  for (const double x : {-0.9, 0.0, 0.9}) {
+    EXPECT_TRUE(is_red(seen_at(x, 0.9)));
+    EXPECT_TRUE(is_red(seen_at(x, 0.1)));
+    EXPECT_TRUE(is_green(seen_at(x, -0.1)));
+    EXPECT_TRUE(is_green(seen_at(x, -0.9)));
+    EXPECT_FALSE(is_red(seen_at(x, 1.1)));
+    EXPECT_FALSE(is_green(seen_at(x, -1.1)));
+  }
+  EXPECT_FALSE(is_red(seen_at(1.1, 0.5)));
+  EXPECT_FALSE(is_red(seen_at(-1.1, 0.5)));
+}
+
 TEST(ScenePanels, AreMixedByTheirAlphaAndScaled) {
   const auto scene = ScenePublisher().publish({});
   SceneLook look = plain_look();
