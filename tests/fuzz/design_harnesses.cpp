@@ -16,7 +16,7 @@
 #include "files/vrml/worker/ready_text.h"
 #include "files/vrml_answers.h"
 #include "fuzz/harness.h"
-#include "geometry/csg/csg_mesh.h"
+#include "geometry/csg/meshing/csg_mesh.h"
 #include "memory_place.h"
 #include "world/edit/edit_bytes.h"
 #include "world/edit/edits_of.h"

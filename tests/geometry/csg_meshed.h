@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "geometry/closed_mesh.h"
-#include "geometry/csg/csg_mesh.h"
+#include "geometry/csg/meshing/csg_mesh.h"
 #include "geometry/mesh/mesh_topology.h"
 
 namespace icome::geometry {

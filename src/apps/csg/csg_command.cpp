@@ -17,8 +17,8 @@
 #include "files/csg/csg_reader.h"
 #include "files/mesh/stl_writer.h"
 #include "geometry/csg/csg_emptiness.h"
-#include "geometry/csg/csg_mesh.h"
 #include "geometry/csg/csg_program.h"
+#include "geometry/csg/meshing/csg_mesh.h"
 
 namespace icome::apps {
 namespace {

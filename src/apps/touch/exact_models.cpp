@@ -9,7 +9,7 @@
 
 #include "apps/interrupt.h"
 #include "apps/stopwatch.h"
-#include "geometry/csg/csg_mesh.h"
+#include "geometry/csg/meshing/csg_mesh.h"
 #include "geometry/implicit/implicit_offset.h"
 #include "geometry/implicit/implicit_surface.h"
 #include "geometry/implicit/plain_formula.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/csg/csg_mesh.h"
+#include "geometry/csg/meshing/csg_mesh.h"
 #include "geometry/implicit/implicit_loss.h"
 #include "world/shape/mesh_geometry.h"
 #include "world/shape/solid_geometry.h"

@@ -10,7 +10,7 @@
 
 #include "base/random.h"
 #include "files/csg/csg_reader.h"
-#include "geometry/csg/csg_mesh.h"
+#include "geometry/csg/meshing/csg_mesh.h"
 #include "geometry/mesh/mesh_topology.h"
 #include "places.h"
 #include "repeats.h"

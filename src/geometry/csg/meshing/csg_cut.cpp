@@ -1,4 +1,4 @@
-#include "geometry/csg/csg_cut.h"
+#include "geometry/csg/meshing/csg_cut.h"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@
 
 #include "base/decompositions.h"
 #include "geometry/csg/csg_part.h"
-#include "geometry/csg/csg_settle.h"
-#include "geometry/csg/csg_tets.h"
+#include "geometry/csg/meshing/csg_settle.h"
+#include "geometry/csg/meshing/csg_tets.h"
 #include "geometry/mesh/face_merge.h"
 #include "geometry/mesh/mesh_sheets.h"
 

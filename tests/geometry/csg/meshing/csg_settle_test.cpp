@@ -1,4 +1,4 @@
-#include "geometry/csg/csg_settle.h"
+#include "geometry/csg/meshing/csg_settle.h"
 
 #include <gtest/gtest.h>
 

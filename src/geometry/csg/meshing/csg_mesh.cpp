@@ -1,4 +1,4 @@
-#include "geometry/csg/csg_mesh.h"
+#include "geometry/csg/meshing/csg_mesh.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "geometry/contour/contour_error.h"
-#include "geometry/csg/csg_cut.h"
 #include "geometry/csg/csg_leaf_surfaces.h"
-#include "geometry/csg/csg_mesh_check.h"
 #include "geometry/csg/csg_solid.h"
+#include "geometry/csg/meshing/csg_cut.h"
+#include "geometry/csg/meshing/csg_mesh_check.h"
 
 namespace icome::geometry {
 namespace {

@@ -1,4 +1,4 @@
-#include "geometry/csg/csg_tets.h"
+#include "geometry/csg/meshing/csg_tets.h"
 
 #include <fmt/format.h>
 

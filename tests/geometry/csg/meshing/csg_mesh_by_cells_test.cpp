@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "geometry/csg/csg_mesh.h"
+#include "geometry/csg/meshing/csg_mesh.h"
 #include "geometry/csg_trees.h"
 
 namespace icome::geometry {

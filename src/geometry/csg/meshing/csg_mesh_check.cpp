@@ -1,4 +1,4 @@
-#include "geometry/csg/csg_mesh_check.h"
+#include "geometry/csg/meshing/csg_mesh_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -122,9 +122,9 @@ class MeshCheck {
 
   /// Is the place on the solid's surface, and the atom's normal there along `way`?
   bool faces(std::uint32_t index, const Vector3& place, const Vector3& way) const {
-    constexpr double kAlong = 0.98;
+    constexpr double kFacing = 0.98;
     const Vector3 normal = height_in_tree(program_.atoms()[index], place).normal;
-    return std::abs(normal.dot(way)) >= kAlong && program_.on_surface(index, place, normal, 10.0 * rounding_);
+    return std::abs(normal.dot(way)) >= kFacing && program_.on_surface(index, place, normal, 10.0 * rounding_);
   }
 
   /// Goes from foot to foot, from a random place to where two atoms come nearest to each other, and looks at

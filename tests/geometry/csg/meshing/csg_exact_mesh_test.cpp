@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "geometry/convex_volume.h"
-#include "geometry/csg/csg_cut.h"
+#include "geometry/csg/meshing/csg_cut.h"
 #include "geometry/csg_meshed.h"
 #include "geometry/csg_trees.h"
 #include "geometry/tree/triangle_tree.h"

@@ -1,8 +1,8 @@
-#include "geometry/csg/csg_mesh_check.h"
+#include "geometry/csg/meshing/csg_mesh_check.h"
 
 #include <gtest/gtest.h>
 
-#include "geometry/csg/csg_mesh.h"
+#include "geometry/csg/meshing/csg_mesh.h"
 #include "geometry/mesh/mesh_topology.h"
 
 namespace icome::geometry {

@@ -1,4 +1,4 @@
-#include "geometry/csg/csg_cut.h"
+#include "geometry/csg/meshing/csg_cut.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "geometry/closed_mesh.h"
-#include "geometry/csg/csg_mesh.h"
+#include "geometry/csg/meshing/csg_mesh.h"
 #include "geometry/csg_trees.h"
 #include "geometry/mesh/mesh_sheets.h"
 #include "geometry/mesh/mesh_topology.h"

@@ -1,4 +1,4 @@
-#include "geometry/csg/csg_settle.h"
+#include "geometry/csg/meshing/csg_settle.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "base/decompositions.h"
 #include "geometry/csg/csg_part.h"
-#include "geometry/csg/csg_tets.h"
+#include "geometry/csg/meshing/csg_tets.h"
 
 namespace icome::geometry {
 namespace {

@@ -1,4 +1,4 @@
-#include "geometry/csg/csg_mesh.h"
+#include "geometry/csg/meshing/csg_mesh.h"
 
 #include <gtest/gtest.h>
 
