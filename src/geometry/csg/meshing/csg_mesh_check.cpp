@@ -124,7 +124,8 @@ class MeshCheck {
   bool faces(std::uint32_t index, const Vector3& place, const Vector3& way) const {
     constexpr double kFacing = 0.98;
     const Vector3 normal = height_in_tree(program_.atoms()[index], place).normal;
-    return std::abs(normal.dot(way)) >= kFacing && program_.on_surface(index, place, normal, 10.0 * rounding_);
+    return std::abs(normal.dot(way)) >= kFacing &&
+           program_.on_surface(index, place, normal, 10.0 * rounding_);
   }
 
   /// Goes from foot to foot, from a random place to where two atoms come nearest to each other, and looks at
