@@ -7,7 +7,7 @@
 namespace icome::geometry {
 namespace {
 
-constexpr std::size_t kMostBoxes = 300'000;
+constexpr std::size_t kMostBoxes = 100'000;
 constexpr double kLeastBox = 0.125;  // of `reach`: smaller boxes are not divided
 
 bool has_surface(const ImplicitSurface& surface, const Vector3& centre, double radius, double time) {

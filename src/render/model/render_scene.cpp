@@ -217,7 +217,7 @@ void ScenePublisher::keep(const World& world, world::GeometryId id,
   }
   as.shape = *made;
   if (as.shape->lacks_parts)
-    as.remark = fmt::format("{} is drawn without its thinnest parts: it has too many to be meshed.",
+    as.remark = fmt::format("{} is drawn without its thinnest parts, which cannot be made triangles.",
                             shape_name(world, id));
 }
 

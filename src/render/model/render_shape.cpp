@@ -209,6 +209,13 @@ base::Result<RenderShapePointer> make_render_shape(const world::Geometry& shape,
   if (box.isEmpty()) return std::make_shared<const RenderShape>();
   const double tolerance = std::isfinite(size) && size > 0.0 ? size * fineness(shape) : 1.0;
   const auto* const moving = time == 0.0 ? nullptr : changing(shape);
+  if (const auto* implicit = dynamic_cast<const world::ImplicitGeometry*>(&shape); implicit && !moving) {
+    const auto solid = implicit->triangles_so_far(tolerance);
+    if (!solid) return tl::unexpected(solid.error());
+    const auto made = make_from_surface(*solid->mesh, kSolidCrease);
+    made->lacks_parts = solid->lost.has_value();
+    return with_levels(made);
+  }
   const auto surface =
       moving ? moving->triangles_at(time, size * kMovingFineness) : shape.triangles(tolerance);
   if (!surface) return tl::unexpected(surface.error());

@@ -102,12 +102,12 @@ base::Result<Triangles> PrimitiveGeometry::triangles(double tolerance) const {
   return share(std::move(mesh));
 }
 
-base::Result<CsgGeometry::Surface> CsgGeometry::surface(double tolerance) const {
+base::Result<SolidTriangles> CsgGeometry::surface(double tolerance) const {
   const Bounds box = bounds();
-  if (box.isEmpty()) return Surface{share({}), std::nullopt};
+  if (box.isEmpty()) return SolidTriangles{share({}), std::nullopt};
   auto contoured = geometry::contour(tree, options_for(tolerance, box));
   if (!contoured) return tl::unexpected(contoured.error());
-  return Surface{share(std::move(contoured->mesh)), contoured->lost};
+  return SolidTriangles{share(std::move(contoured->mesh)), contoured->lost};
 }
 
 base::Result<Triangles> CsgGeometry::triangles(double tolerance) const {
@@ -123,22 +123,28 @@ base::Result<Triangles> CsgGeometry::triangles(double tolerance) const {
   return std::move(made->mesh);
 }
 
-/// Thin parts may slip between the points of the grid: then finer grids are tried, as far as possible.
-base::Result<Triangles> ImplicitGeometry::triangles(double tolerance) const {
+base::Result<SolidTriangles> ImplicitGeometry::triangles_so_far(double tolerance) const {
   for (double finer = tolerance;; finer *= 0.5) {
     auto made = triangles_at(0.0, finer);
-    if (!made) return made;
+    if (!made) return tl::unexpected(made.error());
     const double cell = cell_for(finer, bounds());
     const auto lost = geometry::place_that_mesh_lacks(*surface_, 0.0, (*made)->mesh, 2.0 * cell);
-    if (!lost) return made;
-    if (cell <= finer) continue;
+    if (!lost || cell > finer) return SolidTriangles{std::move(*made), lost};
+  }
+}
+
+base::Result<Triangles> ImplicitGeometry::triangles(double tolerance) const {
+  auto made = triangles_so_far(tolerance);
+  if (!made) return tl::unexpected(made.error());
+  if (const auto& lost = made->lost)
     return base::fail(
         fmt::format("Parts of the solid are too thin or too small to be made triangles, as at ({:.4g}, "
-                    "{:.4g}, {:.4g}) m of its "
-                    "own frame: make its box smaller or them larger, or keep it in a format that holds "
-                    "formulas, such as .icome.",
+                    "{:.4g}, {:.4g}) m of "
+                    "its own frame: make its box smaller or them larger, or keep it in a format that holds "
+                    "formulas, such as "
+                    ".icome.",
                     lost->x(), lost->y(), lost->z()));
-  }
+  return std::move(made->mesh);
 }
 
 base::Result<Triangles> ImplicitGeometry::triangles_at(double time, double tolerance) const {

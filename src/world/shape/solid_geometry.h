@@ -40,6 +40,12 @@ struct PrimitiveGeometry final : public Geometry {
   base::Result<std::string> write() const override;
 };
 
+/// The triangles of a solid as far as they could be made, and a place that is missing there (m), if any.
+struct SolidTriangles {
+  std::shared_ptr<const MeshGeometry> mesh;  // never null
+  std::optional<Vector3> lost;
+};
+
 /// A solid under union, intersection and difference.
 struct CsgGeometry final : public Geometry {
   explicit CsgGeometry(geometry::CsgTree solid) : tree(std::move(solid)) {}
@@ -52,12 +58,7 @@ struct CsgGeometry final : public Geometry {
   /// Custom primitives are hashed by name and box, operands that are meshes by their vertices.
   std::uint64_t hash() const override;
   std::size_t bytes() const override;
-  /// The surface as far as it could be made, and a place that is missing there (m), if any.
-  struct Surface {
-    std::shared_ptr<const MeshGeometry> mesh;  // never null
-    std::optional<Vector3> lost;
-  };
-  base::Result<Surface> surface(double tolerance) const;
+  base::Result<SolidTriangles> surface(double tolerance) const;
   /// Fails also where a part of the solid would be lost.
   base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
   base::Result<std::string> write() const override;
@@ -72,6 +73,8 @@ class ImplicitGeometry final : public Geometry {
 
   const std::string& formula() const { return formula_; }
   const std::shared_ptr<const geometry::ImplicitSurface>& surface() const { return surface_; }
+  /// The triangles at rest, for views: with smaller cells where parts are lost, as far as that goes.
+  base::Result<SolidTriangles> triangles_so_far(double tolerance) const;
   /// The triangles at a time (s), for a surface that changes; see Geometry::triangles.
   base::Result<std::shared_ptr<const MeshGeometry>> triangles_at(double time, double tolerance) const;
 
@@ -80,6 +83,7 @@ class ImplicitGeometry final : public Geometry {
   Bounds bounds() const override { return surface_->bounds(); }
   std::uint64_t hash() const override;
   std::size_t bytes() const override { return sizeof(*this) + formula_.capacity() + surface_->bytes(); }
+  /// Fails also where a part of the solid would be lost.
   base::Result<std::shared_ptr<const MeshGeometry>> triangles(double tolerance) const override;
   base::Result<std::string> write() const override;
 

@@ -9,15 +9,16 @@
 namespace icome::geometry {
 namespace {
 
-constexpr double kNearCells = 1.0;           // a place of the surface is not lost if the mesh is so near
-constexpr double kNarrowCells = 2.0;         // wider walls and gaps are not looked at
-constexpr double kChordCells = 0.1;          // meshes may be off by as much
-constexpr double kRounding = 1e-9;           // of the coordinates
-constexpr std::size_t kMostAsked = 2000;     // atoms
-constexpr std::size_t kMostPairs = 5'000;    // of atoms
-constexpr int kTries = 8;                    // of each pair
-constexpr int kFound = 48;                   // places of each atom
-constexpr std::size_t kMostThrown = 20'000;  // places of all together
+constexpr double kNearCells = 1.0;               // a place of the surface is not lost if the mesh is so near
+constexpr double kNarrowCells = 2.0;             // wider walls and gaps are not looked at
+constexpr double kChordCells = 0.1;              // meshes may be off by as much
+constexpr double kRounding = 1e-9;               // of the coordinates
+constexpr std::size_t kMostAsked = 2000;         // atoms
+constexpr std::size_t kMostPairs = 5'000;        // of atoms that come near to each other
+constexpr std::size_t kMostLooked = 20'000'000;  // pairs of all atoms
+constexpr int kTries = 8;                        // of each pair
+constexpr int kFound = 48;                       // places of each atom
+constexpr std::size_t kMostThrown = 20'000;      // places of all together
 
 class MeshCheck {
  public:
@@ -93,9 +94,10 @@ class MeshCheck {
 
   std::optional<Vector3> lacks_between() {
     const auto count = std::uint32_t(program_.atoms().size());
-    std::size_t pairs = 0;
+    std::size_t pairs = 0, looked = 0;
     for (std::uint32_t a = 0; a < count; ++a)
       for (std::uint32_t b = a + 1; b < count; ++b) {
+        if (++looked > kMostLooked) return std::nullopt;
         if (!come_near(a, b)) continue;
         if (++pairs > kMostPairs) return std::nullopt;
         for (int i = 0; i < kTries; ++i)
