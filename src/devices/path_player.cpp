@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -62,6 +63,32 @@ base::Result<PathPlayer> PathPlayer::parse(std::string_view text, const std::str
   player.info_ = std::move(info);
   player.info_.name = name;
   return player;
+}
+
+base::Result<void> PathPlayer::fill_in(double most) {
+  constexpr double kMostRows = 1e7;
+  if ((times_.back() - times_.front()) / most + double(times_.size()) > kMostRows)
+    return base::fail(fmt::format("{}: takes {:g} s, which are too many ticks", info_.name,
+                                  times_.back() - times_.front()));
+  constexpr double kSpare = 1e-6;  // of a step: times in files are rounded
+  PathPlayer filled;
+  for (std::size_t row = 0; row < times_.size(); ++row) {
+    const double from = row == 0 ? times_[0] : times_[row - 1], gap = times_[row] - from;
+    const int steps = std::max(1, int(std::ceil(gap / most - kSpare)));
+    for (int i = row == 0 ? steps : 1; i <= steps; ++i) {
+      const double share = double(i) / steps;
+      filled.times_.push_back(i == steps ? times_[row] : from + share * gap);
+      filled.positions_.push_back(
+          i == steps ? positions_[row]
+                     : Vector3(positions_[row - 1] + share * (positions_[row] - positions_[row - 1])));
+      if (has_button()) filled.buttons_.push_back(buttons_[i == steps ? row : row - 1]);
+    }
+  }
+  times_ = std::move(filled.times_);
+  positions_ = std::move(filled.positions_);
+  buttons_ = std::move(filled.buttons_);
+  next_ = 0;
+  return {};
 }
 
 DeviceStatus PathPlayer::read(PointerState& state) {

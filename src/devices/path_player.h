@@ -22,6 +22,11 @@ class PathPlayer final : public PointerDevice {
   /// As create(), from text in memory; `name` stands for the file in errors.
   static base::Result<PathPlayer> parse(std::string_view text, const std::string& name, DeviceInfo info = {});
 
+  /// Puts rows on the straight ways between those that are more than `most` (s, > 0) apart, and begins anew.
+  /// The button stays as it was until the next row of the file. Fails where there would be over ten million
+  /// rows.
+  base::Result<void> fill_in(double most);
+
   const DeviceInfo& info() const override { return info_; }
   /// The next row and its velocity (backward difference, zero in the first row); Stalled after the last.
   /// Real-time safe.

@@ -86,6 +86,16 @@ class MenuTest(ProgramTest):
                 self.assertEqual(clicked["chosen"], chosen)
                 self.assertEqual(clicked["pushes"], 0)
 
+    def test_coarse_paths_are_felt_as_fine_ones(self):
+        item = self.layout(TURNED % 0)["items"][0]
+        at, normal = item["centre"], item["normal"]
+        way = [plus(at, normal, 0.05), plus(at, normal, -0.006), plus(at, normal, 0.03)]
+        fine = self.tried(TURNED % 0, path_of(way), "--choose", "push")
+        coarse = self.tried(TURNED % 0, path_of(way, hertz=50), "--choose", "push")
+        self.assertEqual(coarse["chosen"], ["Red"])
+        self.assertLess(coarse["max_force_step_n"], 0.5)
+        self.assertAlmostEqual(coarse["max_force_n"], fine["max_force_n"], delta=0.1)
+
     def test_near_time_is_that_of_the_path(self):
         item = self.layout(TURNED % 0)["items"][0]
         at, normal = item["centre"], item["normal"]
@@ -113,6 +123,30 @@ class MenuTest(ProgramTest):
         self.assertEqual(tried["chosen"][0], "More")
         tried = self.tried(menu, path_of([*way, way[-1]], button={1, 4}))
         self.assertEqual(tried["chosen"], ["More", "Pink"])
+
+    def test_a_menu_that_closes_under_a_push_does_not_jump(self):
+        for turn in (0, 35):
+            menu = TURNED % turn
+            more = self.layout(menu)["items"][3]
+            pink = more["submenu"][0]
+            way = []
+            for item in (more, pink):
+                way += [plus(item["centre"], item["normal"], f) for f in (0.01, -0.006, 0.01)]
+            for device in ("touch", "omega.x"):
+                tried = self.tried(menu, path_of(way, speed=0.05), "--choose", "push", "--device", device)
+                self.assertEqual(tried["chosen"], ["More", "Pink"])
+                self.assertLess(tried["max_force_step_n"], 0.5)
+
+    def test_a_path_of_one_row_clicks_there(self):
+        item = self.layout(TURNED % 0)["items"][0]
+        self.assertEqual(self.tried(TURNED % 0, path_of([plus(item["centre"], item["normal"], 0.005)] * 2))["chosen"],
+                         ["Red"])
+
+    def test_what_no_device_renders_is_told(self):
+        steep = (TURNED % 0).replace("[[item]]", "[ground]\nborder_m = 0.005\n[[item]]", 1)
+        path = path_of([(0, 0, 1), (0, 0, 0.99)])
+        told = self.succeeds("menu", self.write("menu.toml", steep), "--path", self.write("p.csv", path)).stderr
+        self.assertIn("ridges and recesses are felt at", told)
 
     def test_languages_change_words_and_not_names(self):
         colours = MENUS / "colours.toml"

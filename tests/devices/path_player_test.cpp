@@ -75,6 +75,36 @@ TEST(PathPlayer, AcceptsAByteOrderMarkAndBlanksInTheHeader) {
   EXPECT_EQ(player->positions()[0], Vector3(1, 2, 3));
 }
 
+TEST(PathPlayer, AFifthColumnIsTheButton) {
+  auto player = PathPlayer::parse("t,x,y,z,b\n0,0,0,0,0\n1,0,0,0,1\n2,0,0,0,0\n", "path.csv").value();
+  EXPECT_TRUE(player.has_button());
+  PointerState state;
+  for (const std::uint32_t buttons : {0U, 1U, 0U}) {
+    ASSERT_EQ(player.read(state), DeviceStatus::Ok);
+    EXPECT_EQ(state.buttons, buttons);
+  }
+  EXPECT_FALSE(PathPlayer::parse("t,x,y,z\n0,0,0,0\n", "path.csv").value().has_button());
+  EXPECT_EQ(error_of("t,x,y,z,b\n0,0,0,0,0.5\n"), "path.csv:2: b, the button, is 0 (up) or 1 (down)");
+}
+
+TEST(PathPlayer, FillsInTheStraightWay) {
+  auto player = PathPlayer::parse("t,x,y,z,b\n1,0,0,0,1\n1.01,1,0,2,0\n1.011,1,0,3,0\n", "path.csv").value();
+  ASSERT_TRUE(player.fill_in(0.001));
+  ASSERT_EQ(player.times().size(), 12U);
+  for (std::size_t i = 0; i + 1 < 12; ++i) {
+    EXPECT_NEAR(player.times()[i], 1.0 + 0.001 * double(i), 1e-12);
+    EXPECT_TRUE(player.positions()[i].isApprox(0.1 * double(i) * Vector3(1, 0, 2))) << i;
+  }
+  EXPECT_EQ(player.positions().back(), Vector3(1, 0, 3));
+  PointerState state;
+  for (std::size_t i = 0; i < 12; ++i) {
+    ASSERT_EQ(player.read(state), DeviceStatus::Ok);
+    EXPECT_EQ(state.buttons, i < 10 ? 1U : 0U) << i;
+  }
+  auto longer = PathPlayer::parse("t,x,y,z\n0,0,0,0\n1e9,0,0,0\n", "path.csv").value();
+  EXPECT_FALSE(longer.fill_in(0.001));
+}
+
 TEST(PathPlayer, ErrorsNameFileAndLine) {
   EXPECT_EQ(error_of(""), "path.csv:1: the first line must be \"t,x,y,z\", not \"\"");
   EXPECT_EQ(error_of("x,y,z\n1,2,3\n"), "path.csv:1: the first line must be \"t,x,y,z\", not \"x,y,z\"");

@@ -26,6 +26,8 @@ using interaction::LaidWidget;
 using interaction::Widget;
 using Json = nlohmann::ordered_json;
 
+constexpr double kTickSeconds = 0.001;  // the longest between two ticks while trying
+
 constexpr const char* kMenuNotes =
     "Examples:\n"
     "  icome menu colours.toml                     where each item lies\n"
@@ -35,11 +37,13 @@ constexpr const char* kMenuNotes =
     "FILE.toml describes a haptic element: a menu, toolbar, dialog, ring or pie that lies in the scene\n"
     "(docs/elements.md). The path has a first line t,x,y,z (s, m, world frame), and perhaps a fifth\n"
     "column b, the button: 1 down, 0 up. Without it a click comes where the path ends. Each row is a\n"
-    "tick of the servo, and the forces keep the limits of the device.\n"
+    "tick of the servo, with more on the way where rows are over 1 ms apart; forces keep the limits of\n"
+    "the device.\n"
     "\n"
     "JSON: {file, kind, language, items: [{name, text, kind, centre: [x,y,z], normal: [x,y,z], width,\n"
-    "height, enabled, submenu: null or [items, as they lie when it is open]}]} (m, world frame); with\n"
-    "--path {chosen: [names], choices: [{name, by, time_s}], seconds, near_s, pushes, max_force_n,\n"
+    "height, enabled, submenu: null or [items, as they lie when it is open]}]} (m, world frame);\n"
+    "with --path instead {chosen: [names], choices: [{name, by, time_s}], seconds, near_s, pushes, "
+    "max_force_n,\n"
     "max_force_step_n, tick_us: {median, p99, max}}.";
 
 const char* word_of(interaction::ElementKind kind) {
@@ -219,8 +223,10 @@ base::Result<std::string> answer_of_trial(ElementUse& use, const MenuOptions& op
   if (!device) return tl::unexpected(device.error());
   auto path = devices::PathPlayer::create(options.path->string(), *device);
   if (!path) return tl::unexpected(path.error());
+  if (const auto filled = path->fill_in(kTickSeconds); !filled) return tl::unexpected(filled.error());
   const auto trial = try_element(use, *path);
   if (!trial) return base::fail("interrupted");
+  if (!trial->capped.empty()) tell(fmt::format("on {}, {}.", device->name, trial->capped));
   return options.json ? trial_json(*trial) : trial_text(*trial);
 }
 

@@ -25,6 +25,7 @@ struct MenuTrial {
   double max_force = 0.0;       // N
   double max_force_step = 0.0;  // N, between two ticks
   std::vector<double> tick_us;  // the servo's own time of each tick, rising
+  std::string capped;           // what the device cannot render as the file asks for; empty: nothing
 };
 
 /// Moves the tip along the path, a row a tick, through the servo with its limiter. A path without a button

@@ -1,5 +1,7 @@
 #include "haptics/effects/panel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -10,8 +12,8 @@ namespace icome::haptics {
 namespace {
 
 constexpr double kFlank = 0.0015;             // m, of reliefs and detents, or half of a narrow target
+constexpr double kFlankARise = 2.0;           // at least so wide for its height
 constexpr double kDetentWidth = 0.0006;       // m, over which the force falls
-constexpr double kLetsGo = 0.004;             // m, over which the ground lets go
 constexpr double kDampingDepth = 0.0005;      // m, over which damping sets in
 constexpr double kFrictionStiffness = 500.0;  // N/m
 
@@ -59,7 +61,11 @@ Field rings(const Vector2& offset, double spacing) {
   return {0.5 * (1.0 - std::cos(wave * r)), offset * (0.5 * wave * std::sin(wave * r) / r)};
 }
 
-double flank_of(const PanelTarget& target) { return std::min(kFlank, 0.5 * target.half.minCoeff()); }
+/// Wider where the target rises or falls by more, so that a hand does not catch on it.
+double flank_of(const PanelTarget& target) {
+  const double rise = std::abs(target.recess) + std::abs(target.ridge);
+  return std::min(std::max(kFlank, kFlankARise * rise), 0.5 * target.half.minCoeff());
+}
 
 /// The energy of a well whose strongest pull across its shorter side is `newtons`: (1 - q^2)^3 is steepest at
 /// q = 1/sqrt(5), where it falls by 1.717 over the half width.
@@ -73,15 +79,16 @@ double well_stiffness(const PanelTarget& target) {
   return 6.0 * well_energy(target) / std::pow(target.half.minCoeff(), 2);
 }
 
-/// The most that a target adds to the stiffness of the ground: forces along the plane that grow with slopes.
-double relief_stiffness(const PanelTarget& target, const PanelSettings& panel) {
-  const double rise = std::abs(target.recess) + std::abs(target.ridge);
-  const double steepest =
-      1.5 * rise / flank_of(target) + std::abs(target.rings) * std::numbers::pi / target.ring_spacing;
-  const double curved =
-      6.0 * rise / std::pow(flank_of(target), 2) +
-      0.5 * std::abs(target.rings) * std::pow(2.0 * std::numbers::pi / target.ring_spacing, 2);
-  return panel.stiffness * steepest * steepest + panel.most_force * curved;
+/// The steepest slope of a target's relief, and its tightest bend, 1/m.
+struct Steepness {
+  double slope, bend;
+};
+
+Steepness steepness(const PanelTarget& target) {
+  const double rise = std::abs(target.recess) + std::abs(target.ridge), flank = flank_of(target);
+  const double wave = 2.0 * std::numbers::pi / target.ring_spacing;
+  return {1.5 * rise / flank + 0.5 * std::abs(target.rings) * wave,
+          6.0 * rise / (flank * flank) + 0.5 * std::abs(target.rings) * wave * wave};
 }
 
 [[maybe_unused]] bool is_sound(const PanelTarget& target) {
@@ -91,15 +98,26 @@ double relief_stiffness(const PanelTarget& target, const PanelSettings& panel) {
 
 }  // namespace
 
+PanelSide next_side(PanelSide last, double front, double height, const PanelSettings& settings) {
+  const double deepest = Panel::free_behind(settings);
+  if (last == PanelSide::Front) return height - front >= deepest ? PanelSide::Behind : PanelSide::Front;
+  // Also a recess is come into from before the plane.
+  const double open = std::max(height, 0.0);
+  const bool is_held_behind = last == PanelSide::Behind && settings.sides == TouchableSides::Both;
+  return front >= (is_held_behind ? height + deepest : open) ? PanelSide::Front : PanelSide::Behind;
+}
+
 Panel::Panel(PanelSettings settings) : settings_(std::move(settings)) {
   assert(settings_.half.minCoeff() > 0.0 && settings_.stiffness > 0.0 && settings_.most_force > 0.0);
   assert(settings_.edge > 0.0 && settings_.well_reach > 0.0 && settings_.opening_seconds > 0.0);
   assert(std::ranges::all_of(settings_.targets, is_sound));
   settings_.way_through = std::max(settings_.way_through, settings_.most_force / settings_.stiffness);
-  double steepest = 0.0;
-  for (const PanelTarget& target : settings_.targets)
-    steepest = std::max(steepest, well_stiffness(target) + relief_stiffness(target, settings_));
-  stiffest_ = settings_.stiffness + steepest;
+  for (const PanelTarget& target : settings_.targets) {
+    const auto [slope, bend] = steepness(target);
+    slope_stiffness_ = std::max(slope_stiffness_, settings_.stiffness * slope * slope);
+    bend_stiffness_ = std::max(bend_stiffness_, settings_.most_force * bend);
+    well_stiffness_ = std::max(well_stiffness_, well_stiffness(target));
+  }
   make_cells();
 }
 
@@ -160,6 +178,7 @@ Panel::Ground Panel::ground_at(const Vector2& place) const {
                     target.rings * inside.value * ring.slope;
     ground.detent += target.detent * inside.value;
     ground.detent_slope += target.detent * inside.slope;
+    if (target.detent > 0.0) ground.push_depth = target.push_depth;
     ground.friction += target.friction * inside.value;
     const Field well = bowl(offset, target.half);
     const double energy = well_energy(target);
@@ -186,34 +205,44 @@ Reach Panel::reach() const {
           .radius = std::hypot(across, std::max(settings_.way_through + kLetsGo, settings_.well_reach))};
 }
 
-/// The tip stays on its side while it is over the panel: only round the edge, through the open plane from
-/// behind, or where the ground has let go, does it come to the other one.
-void Panel::decide_side(double front, double height, double weight, double deepest) {
-  PanelSide& side = memory_->side;
-  if (weight <= 0.0) {
-    side = PanelSide::Unknown;
-  } else if (side == PanelSide::Unknown) {
-    side = front >= height ? PanelSide::Front : PanelSide::Behind;
-  } else if (side == PanelSide::Behind) {
-    const bool passes =
-        settings_.sides == TouchableSides::Front ? front >= height : front >= height + deepest;
-    if (passes) side = PanelSide::Front;
-  } else if (height - front >= deepest) {
-    side = PanelSide::Behind;
-  }
+std::string Panel::capped(double device_mass, double dt) const {
+  const Scale scale = scale_on(device_mass, dt);
+  std::string text = capped_spring(device_mass, dt, settings_.stiffness, kAutomaticDamping);
+  const auto add = [&](double share, const char* what) {
+    if (share > 0.995) return;
+    text += fmt::format("{}{} felt at {:.0f} % of what was asked for", text.empty() ? "" : ", ", what,
+                        100.0 * share);
+  };
+  add(scale.relief, "ridges and recesses are");
+  add(scale.wells, "wells are");
+  return text;
 }
 
-Panel::Press Panel::press(double depth, double detent) const {
+/// The ground gets up to three quarters of what is stable, relief and wells half of the rest each.
+Panel::Scale Panel::scale_on(double device_mass, double dt) const {
+  const double asked = 2.0 * (slope_stiffness_ + bend_stiffness_ + well_stiffness_ + settings_.stiffness);
+  const double most = stable_stiffness(device_mass, dt, asked);
+  Scale scale;
+  scale.ground = std::min(1.0, 0.75 * most / settings_.stiffness);
+  const double room = 0.5 * (most - scale.ground * settings_.stiffness);
+  // slope s^2 + bend s = room
+  const double a = slope_stiffness_, b = bend_stiffness_;
+  if (a + b > room) scale.relief = 2.0 * room / (b + std::sqrt(b * b + 4.0 * a * room));
+  if (well_stiffness_ > room) scale.wells = room / well_stiffness_;
+  return scale;
+}
+
+Panel::Press Panel::press(double depth, const Ground& ground) const {
   if (depth <= 0.0) return {};
   const double k = settings_.stiffness, most = settings_.most_force, yields = most / k;
   Press press;
   press.energy = depth < yields ? 0.5 * k * depth * depth : most * (depth - 0.5 * yields);
   press.force = std::min(k * depth, most);
-  const Step click = step((depth - settings_.push_depth) / kDetentWidth);
+  const Step click = step((depth - ground.push_depth) / kDetentWidth);
   const Step through = step((depth - settings_.way_through) / kLetsGo);
   press.with_detent = kLetsGo * through.integral - kDetentWidth * click.integral;
-  press.energy += detent * press.with_detent - most * kLetsGo * through.integral;
-  press.force += detent * (through.value - click.value) - most * through.value;
+  press.energy += ground.detent * press.with_detent - most * kLetsGo * through.integral;
+  press.force += ground.detent * (through.value - click.value) - most * through.value;
   return press;
 }
 
@@ -239,7 +268,7 @@ Vector3 Panel::ground_force(const EffectInput& input, const Ground& ground, doub
   const double reverse = memory_->side == PanelSide::Behind ? -1.0 : 1.0;
   const double depth = reverse * (ground.height - input.position.z());
   const Field weight = box(place, settings_.half + Vector2::Constant(settings_.edge), settings_.edge);
-  const Press pressed = press(depth, ground.detent);
+  const Press pressed = press(depth, ground);
   const bool felt =
       depth > 0.0 && weight.value > 0.0 && (reverse > 0.0 || settings_.sides == TouchableSides::Both);
   if (!felt) {
@@ -252,7 +281,7 @@ Vector3 Panel::ground_force(const EffectInput& input, const Ground& ground, doub
   Vector3 force = weight.value * pressed.force * out + Vector3(aside.x(), aside.y(), 0.0);
   const double damping =
       leak_seconds(input.dt) * settings_.stiffness * weight.value * step(depth / kDampingDepth).value;
-  force -= damping * input.velocity.dot(out) / out.squaredNorm() * out;
+  force -= damping * input.velocity.dot(out) * out;
   force.head<2>() += friction_force(place, ground.friction * weight.value * std::max(0.0, pressed.force),
                                     std::min(kFrictionStiffness, settings_.stiffness));
   return scale * force;
@@ -275,7 +304,8 @@ Vector3 Panel::well_force(const EffectInput& input, const Ground& ground, double
 
 Vector3 Panel::force(const EffectInput& input) {
   Memory& memory = *memory_;
-  memory.open = std::min(1.0, memory.open + input.dt / settings_.opening_seconds);
+  const double opens = input.dt / settings_.opening_seconds;
+  memory.open = std::clamp(memory.open + (settings_.closes ? -opens : opens), 0.0, 1.0);
   const Vector2 place = input.position.head<2>();
   const Vector2 around = settings_.half + Vector2::Constant(settings_.edge);
   Vector3 asked = Vector3::Zero();
@@ -283,10 +313,13 @@ Vector3 Panel::force(const EffectInput& input) {
     memory.side = PanelSide::Unknown;
     memory.sticks = false;
   } else {
-    const Ground ground = ground_at(place);
-    decide_side(input.position.z(), ground.height, 1.0, settings_.way_through + kLetsGo);
-    const double scale = memory.open * stable_stiffness(input.device_mass, input.dt, stiffest_) / stiffest_;
-    asked = ground_force(input, ground, scale) + well_force(input, ground, scale);
+    const Scale scale = scale_on(input.device_mass, input.dt);
+    Ground ground = ground_at(place);
+    ground.height *= scale.relief;
+    ground.slope *= scale.relief;
+    memory.side = next_side(memory.side, input.position.z(), ground.height, settings_);
+    asked = ground_force(input, ground, memory.open * scale.ground) +
+            well_force(input, ground, memory.open * scale.wells);
   }
   const Vector3 change = asked - memory.last;
   const double most = kMostChange * input.dt;

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -27,18 +28,19 @@ struct PanelTarget {
   double ring_spacing = 0.002;       // m, > 0
   double friction = 0.0;             // coefficient, on top of the panel's; usually 0.2 to 0.8
   double detent = 0.0;               // N, by which the force falls at push_depth; at most 0.5
+  double push_depth = 0.003;         // m, > 0, below its floor
 };
 
 struct PanelSettings {
   Vector2 half = {0.05, 0.05};   // m, half its width and height, > 0
   double stiffness = 600.0;      // N/m, > 0, of its ground
   double most_force = 3.0;       // N, > 0, of its ground: beyond that it gives way
-  double push_depth = 0.003;     // m, > 0, where a push counts and the detent lies
   double friction = 0.0;         // coefficient, of its ground
   double edge = 0.004;           // m, > 0: outside its border it fades to nothing within this
   double way_through = 0.020;    // m, depth from which it lets go: a hand behind it is free again
   double well_reach = 0.010;     // m, > 0: wells pull from this far before the ground
   double opening_seconds = 0.3;  // s, > 0: its forces grow from nothing within this
+  bool closes = false;           // they fade to nothing instead, within the same time
   TouchableSides sides = TouchableSides::Front;
   std::vector<PanelTarget> targets = {};
 };
@@ -50,16 +52,30 @@ enum class PanelSide : std::uint8_t {
   Behind,
 };
 
+/// The side of a tip that is over a panel, after that of the last tick: `front` is its distance to the plane
+/// and `height` that of the relief there, both m and > 0 in front. It stays on its side; only through the
+/// open plane from behind, or where the ground has let go, does it come to the other one. Real-time safe.
+PanelSide next_side(PanelSide last, double front, double height, const PanelSettings& settings);
+
 /// The flat ground of an interface element that lies in the scene, in its own plane z = 0, with front +z: it
 /// carries the hand from the front, and lets it pass from behind (thesis 6.6.3), or carries it from both
 /// sides. A tip that was behind it when it opened, or came to there round its edge, feels nothing.
 ///
+/// Where relief would be too steep for the device and the tick it is felt lower, and wells shallower; the
+/// ground itself is as hard as it is stable.
+///
 /// All but damping and friction is one potential of place, so that the panel gives back no more than it was
 /// given: the ground with its relief and detent fades over the edge, wells fade towards the hand. Forces
-/// begin with a ramp, and change by at most kMostChange. Stiffnesses are kept within what is stable.
+/// begin with a ramp, and change by at most kMostChange.
 class Panel final : public Effect {
  public:
   static constexpr double kMostChange = 400.0;  // N/s: 0.4 N in a tick at 1 kHz
+  static constexpr double kLetsGo = 0.004;      // m, over which the ground lets go, from way_through on
+
+  /// The depth (m) behind which a hand is free of a ground with these settings.
+  static double free_behind(const PanelSettings& settings) {
+    return std::max(settings.way_through, settings.most_force / settings.stiffness) + kLetsGo;
+  }
 
   explicit Panel(PanelSettings settings);
 
@@ -68,12 +84,10 @@ class Panel final : public Effect {
   void continue_from(const Effect& before) override;
   void reframe(const base::Pose& new_from_old) override;
   double mass_needed(double device_mass, double dt) const override {
-    return haptics::mass_needed(stiffest_, kAutomaticDamping, device_mass, dt);
+    return haptics::mass_needed(2.0 * settings_.stiffness, kAutomaticDamping, device_mass, dt);
   }
   Reach reach() const override;
-  std::string capped(double device_mass, double dt) const override {
-    return capped_spring(device_mass, dt, stiffest_, kAutomaticDamping);
-  }
+  std::string capped(double device_mass, double dt) const override;
 
   /// The side on which the tip was in the last tick.
   PanelSide side() const { return memory_->side; }
@@ -89,6 +103,7 @@ class Panel final : public Effect {
     double well = 0.0;                       // J, >= 0: the depth of the wells
     Vector2 well_slope = Vector2::Zero();    // N
     double well_stiffness = 0.0;             // N/m, along the plane
+    double push_depth = 0.003;               // m, where the detent is
   };
   Ground ground_at(const Vector2& place) const;
 
@@ -100,6 +115,10 @@ class Panel final : public Effect {
     Vector2 anchor = Vector2::Zero();  // m, of friction
     Vector3 last = Vector3::Zero();    // N
   };
+  /// What is rendered of what was asked for, on a device.
+  struct Scale {
+    double ground = 1.0, relief = 1.0, wells = 1.0;
+  };
   /// The potential of the ground at a depth, and its derivatives.
   struct Press {
     double energy = 0.0;       // J
@@ -109,14 +128,17 @@ class Panel final : public Effect {
 
   void make_cells();
   std::span<const std::uint32_t> targets_near(const Vector2& place) const;
-  void decide_side(double front, double height, double weight, double deepest);
-  Press press(double depth, double detent) const;
+  Scale scale_on(double device_mass, double dt) const;
+  Press press(double depth, const Ground& ground) const;
   Vector3 ground_force(const EffectInput& input, const Ground& ground, double scale);
   Vector3 well_force(const EffectInput& input, const Ground& ground, double scale) const;
   Vector2 friction_force(const Vector2& place, double most, double stiffness);
 
   PanelSettings settings_;
-  double stiffest_ = 0.0;  // N/m, of all that may act at once
+  // Of the steepest target each.
+  double slope_stiffness_ = 0.0;  // N/m, of slopes of the relief, by their square
+  double bend_stiffness_ = 0.0;   // N/m, of their bends
+  double well_stiffness_ = 0.0;   // N/m
   std::array<std::uint32_t, 2> cells_{1, 1};
   std::vector<std::uint32_t> cell_begins_;
   std::vector<std::uint32_t> cell_targets_;

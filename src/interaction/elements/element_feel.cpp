@@ -1,7 +1,11 @@
 #include "interaction/elements/element_feel.h"
 
+#include <algorithm>
+
 namespace icome::interaction {
 namespace {
+
+constexpr double kLeastPush = 0.0003;  // m, below a floor that is nearly as deep as a push
 
 haptics::PanelTarget target_of(const Element& element, const LaidWidget& laid, const LaidSheet& sheet) {
   const Widget& widget = *laid.widget;
@@ -17,17 +21,14 @@ haptics::PanelTarget target_of(const Element& element, const LaidWidget& laid, c
   target.ring_spacing = feel.ring_spacing;
   target.friction = feel.friction;
   target.detent = element.choosing.by_push ? element.choosing.detent : 0.0;
+  // A push counts from the plane, which lies above the floor of a recess.
+  target.push_depth = std::max(element.choosing.push_depth - feel.recess, kLeastPush);
   return target;
 }
 
-haptics::PanelSettings ground_of(const Element& element, const LaidSheet& sheet) {
-  haptics::PanelSettings panel;
+haptics::PanelSettings panel_of(const Element& element, const LaidSheet& sheet) {
+  haptics::PanelSettings panel = ground_of(element);
   panel.half = sheet.half;
-  panel.stiffness = element.ground.stiffness;
-  panel.most_force = element.ground.most_force;
-  panel.push_depth = element.choosing.push_depth;
-  panel.friction = element.ground.friction;
-  panel.sides = element.ground.both_sides ? haptics::TouchableSides::Both : haptics::TouchableSides::Front;
   if (element.ground.border != 0.0) {
     haptics::PanelTarget border;
     border.half = sheet.half;
@@ -39,11 +40,20 @@ haptics::PanelSettings ground_of(const Element& element, const LaidSheet& sheet)
 
 }  // namespace
 
+haptics::PanelSettings ground_of(const Element& element) {
+  haptics::PanelSettings panel;
+  panel.stiffness = element.ground.stiffness;
+  panel.most_force = element.ground.most_force;
+  panel.friction = element.ground.friction;
+  panel.sides = element.ground.both_sides ? haptics::TouchableSides::Both : haptics::TouchableSides::Front;
+  return panel;
+}
+
 std::vector<FeltSheet> feel_of(const Element& element, const ElementLayout& layout,
                                const ElementFrame& frame) {
   std::vector<FeltSheet> felt;
   for (const LaidSheet& sheet : layout.sheets) {
-    FeltSheet one{frame.world_from_element(), ground_of(element, sheet)};
+    FeltSheet one{frame.world_from_element(), panel_of(element, sheet)};
     one.world_from_sheet.translation() = frame.in_world(sheet.centre);
     felt.push_back(std::move(one));
   }

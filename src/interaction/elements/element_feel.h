@@ -13,6 +13,9 @@ struct FeltSheet {
   haptics::PanelSettings panel;
 };
 
+/// The ground of the element's sheets, without size or targets.
+haptics::PanelSettings ground_of(const Element& element);
+
 /// What is felt of an element: a panel for each sheet, the element's own first.
 std::vector<FeltSheet> feel_of(const Element& element, const ElementLayout& layout,
                                const ElementFrame& frame);

@@ -20,6 +20,7 @@ using io::TomlNode;
 using io::Words;
 
 constexpr double kFarthestCentre = 1000.0;          // m
+constexpr double kDeepestRecess = 0.003;            // m
 constexpr std::uint64_t kLongestFile = 10'000'000;  // bytes
 
 const Words<ElementKind> kKinds = {{"menu", ElementKind::Menu},
@@ -73,6 +74,7 @@ class ElementReader {
     read_groups(keys, element);
     const WidgetFeel feel = read_feel(keys, WidgetFeel());
     element.widgets = read_widgets(keys, "item", element.languages, feel, 1);
+    check_only_one(element.widgets, keys.place());
     if (element.widgets.empty() && problems_.none())
       problems_.add(keys.place(), "the element has no widgets; write [[item]] with name = \"...\"");
     keys.finish();
@@ -131,6 +133,9 @@ class ElementReader {
     choosing.detent = keys.number("detent_n", choosing.detent, 0.0, 0.5);
     if (choosing.recede < choosing.near)
       problems_.add(keys.place_of("recede_m"), "choosing: recede_m must not be below near_m.");
+    if (choosing.by_push && choosing.near <= choosing.push_depth)
+      problems_.add(keys.place_of("near_m"),
+                    "choosing: near_m must be above push_m, or a push comes out of reach.");
     keys.finish();
   }
 
@@ -159,7 +164,7 @@ class ElementReader {
     const std::vector<std::string> none = {"en"};
     KeyReader inner(*table, "feel", none, problems_);
     feel.well = inner.number("well_n", feel.well, 0.0, 3.0);
-    feel.recess = inner.number("recess_m", feel.recess, -0.003, 0.003);
+    feel.recess = inner.number("recess_m", feel.recess, -kDeepestRecess, kDeepestRecess);
     feel.ridge = inner.number("ridge_m", feel.ridge, -0.003, 0.003);
     feel.rings = inner.number("rings_m", feel.rings, 0.0, 0.001);
     feel.ring_spacing = inner.number("ring_spacing_m", feel.ring_spacing, 0.0005, 0.05);
@@ -226,9 +231,27 @@ class ElementReader {
       keys.require("name", "name = \"...\"");
       if (keys.has("name"))
         problems_.add(keys.place_of("name"), "item: name is empty; write a word or more.");
+    } else if (std::ranges::any_of(widget.name, [](unsigned char c) { return c < ' ' || c == 0x7f; })) {
+      problems_.add(keys.place_of("name"), "item: name has control characters; write a word or more.");
     } else if (!names_.insert(widget.name).second) {
       problems_.add(keys.place_of("name"), fmt::format("item: there are two of the name '{}'.", widget.name));
     }
+  }
+
+  /// One default and one cancel in a menu, and one radio that is on in each group of it.
+  void check_only_one(const std::vector<Widget>& widgets, const io::Place& place) {
+    std::set<std::string> groups;
+    int defaults = 0, cancels = 0;
+    for (const Widget& widget : widgets) {
+      defaults += widget.is_default ? 1 : 0;
+      cancels += widget.is_cancel ? 1 : 0;
+      if (widget.kind == WidgetKind::Radio && widget.checked && !groups.insert(widget.group).second)
+        problems_.add(place,
+                      fmt::format("item '{}': another radio of its group is checked, too.", widget.name));
+      check_only_one(widget.widgets, place);
+    }
+    if (defaults > 1) problems_.add(place, "the element: only one item can be the default.");
+    if (cancels > 1) problems_.add(place, "the element: only one item can be the cancel.");
   }
 
   void read_slider(KeyReader& keys, Widget& widget) {

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include "interaction/elements/element_feel.h"
 
 namespace icome::interaction {
 namespace {
 
-constexpr double kClosesAfter = 0.4;  // s, for which the pointer has been far from all menus
+constexpr double kClosesAfter = 0.4;   // s, for which the pointer has been far from all menus
+constexpr double kArmedShare = 0.2;    // of a push: the hand must come back so far for another
+constexpr double kSliderShare = 0.05;  // of its range, by which a key moves a slider without steps
 
 bool is_named(const Widget& widget, std::string_view said) {
   return widget.name == said || std::ranges::find(widget.text, said) != widget.text.end();
@@ -51,7 +56,8 @@ ElementUse::ElementUse(const Element& element, std::size_t language, TextMeasure
       measure_(std::move(measure)),
       frame_{element.centre, element.turn},
       layout_(lay_out(element, language, measure_)),
-      opacity_(element.fading.least) {
+      opacity_(element.fading.least),
+      ground_(ground_of(element)) {
   keep_settings(element.widgets);
 }
 
@@ -101,24 +107,12 @@ void ElementUse::close_when_far(double distance, double time) {
   if (!open_.empty() && time - far_since_ > kClosesAfter) close_menus(0);
 }
 
-/// The tip came from the front where it is in front of the plane or was since it came over the element.
-void ElementUse::decide_side(double front, bool over) {
-  const double way_through = 0.024;  // m, where the ground has let go of the hand (haptics::Panel)
-  if (!over) {
-    side_ = Side::Unknown;
-  } else if (front >= 0.0) {
-    side_ = Side::Front;
-  } else if (side_ == Side::Unknown || -front >= way_through) {
-    side_ = Side::Behind;
-  }
-}
-
-bool ElementUse::pushed(double depth, const Widget* under) {
-  const double needed = element_.choosing.push_depth + (under != nullptr ? under->feel.recess : 0.0);
-  if (side_ != Side::Front || depth < armed_at_) armed_ = true;
-  if (side_ != Side::Front || !armed_ || depth < needed) return false;
+bool ElementUse::pushed(double depth) {
+  const double needed = element_.choosing.push_depth;
+  const bool from_front = side_ == haptics::PanelSide::Front;
+  if (!from_front || depth < kArmedShare * needed) armed_ = true;
+  if (!from_front || !armed_ || depth < needed) return false;
   armed_ = false;
-  armed_at_ = 0.5 * needed;
   ++pushes_;
   return true;
 }
@@ -142,14 +136,13 @@ std::optional<Choice> ElementUse::point(const ElementPointer& pointer) {
   if (near_) near_seconds_ += dt;
   fade(distance, dt);
   close_when_far(distance, pointer.time);
-  decide_side(front, over);
+  side_ = over ? haptics::next_side(side_, front, 0.0, ground_) : haptics::PanelSide::Unknown;
   const LaidWidget* const under = over ? layout_.at(place) : nullptr;
   const bool can_light =
       near_ && under != nullptr && under->widget->can_be_chosen() && under->widget->enabled;
   if (near_ || distance <= element_.choosing.recede) lit_ = can_light ? under->widget : nullptr;
   const bool clicked = started_ && pointer.button && !button_ && element_.choosing.by_click;
-  const bool pushed_in =
-      pushed(-front, under != nullptr ? under->widget : nullptr) && element_.choosing.by_push;
+  const bool pushed_in = pushed(-front) && element_.choosing.by_push;
   started_ = true;
   time_ = pointer.time;
   button_ = pointer.button;
@@ -219,52 +212,48 @@ void ElementUse::move_light(int by) {
   lit_ = way[std::size_t(next)];
 }
 
+/// The light goes to the menu that the lit item opens, or back to the item that opened its own.
+std::optional<Choice> ElementUse::press_aside(bool right) {
+  if (lit_ != nullptr && lit_->kind == WidgetKind::Slider) {
+    const double step = lit_->step > 0.0 ? lit_->step : kSliderShare * (lit_->most - lit_->least);
+    setting_of(*lit_)->value = stepped(*lit_, value_of(*lit_) + (right ? step : -step));
+    return choose(*lit_, ChosenBy::Key);
+  }
+  if (right && lit_ != nullptr && !lit_->widgets.empty()) {
+    const auto choice = choose(*lit_, ChosenBy::Key);
+    move_light(1);
+    return choice;
+  }
+  if (!right && !open_.empty()) {
+    const Widget* const opener = open_.back();
+    close_menus(open_.size() - 1);
+    lit_ = opener;
+  } else if (element_.kind != ElementKind::Menu) {
+    move_light(right ? 1 : -1);
+  }
+  return std::nullopt;
+}
+
+std::optional<Choice> ElementUse::choose_first(bool Widget::*which) {
+  const auto found = std::ranges::find(element_.widgets, true, which);
+  return found == element_.widgets.end() ? std::nullopt : choose(*found, ChosenBy::Key);
+}
+
 std::optional<Choice> ElementUse::press(ElementKey key) {
-  if (layout_.sheets.empty()) return std::nullopt;
-  const Widget* const lit = lit_;
-  const bool is_slider = lit != nullptr && lit->kind == WidgetKind::Slider;
   switch (key) {
     case ElementKey::Up:
-      move_light(-1);
-      return std::nullopt;
     case ElementKey::Down:
-      move_light(1);
+      move_light(key == ElementKey::Down ? 1 : -1);
       return std::nullopt;
     case ElementKey::Left:
-    case ElementKey::Right: {
-      const double way = key == ElementKey::Right ? 1.0 : -1.0;
-      if (is_slider) {
-        const double step = lit->step > 0.0 ? lit->step : 0.05 * (lit->most - lit->least);
-        setting_of(*lit)->value = stepped(*lit, value_of(*lit) + way * step);
-        return choose(*lit, ChosenBy::Key);
-      }
-      if (way > 0.0 && lit != nullptr && !lit->widgets.empty()) {
-        const auto choice = choose(*lit, ChosenBy::Key);
-        move_light(1);
-        return choice;
-      }
-      if (way < 0.0 && !open_.empty()) {
-        const Widget* const opener = open_.back();
-        close_menus(open_.size() - 1);
-        lit_ = opener;
-      } else if (element_.kind != ElementKind::Menu) {
-        move_light(way > 0.0 ? 1 : -1);
-      }
+    case ElementKey::Right:
+      return press_aside(key == ElementKey::Right);
+    case ElementKey::Enter:
+      return lit_ != nullptr ? choose(*lit_, ChosenBy::Key) : choose_first(&Widget::is_default);
+    case ElementKey::Escape:
+      if (open_.empty()) return choose_first(&Widget::is_cancel);
+      close_menus(open_.size() - 1);
       return std::nullopt;
-    }
-    case ElementKey::Enter: {
-      if (lit != nullptr) return choose(*lit, ChosenBy::Key);
-      const auto found = std::ranges::find(element_.widgets, true, &Widget::is_default);
-      return found == element_.widgets.end() ? std::nullopt : choose(*found, ChosenBy::Key);
-    }
-    case ElementKey::Escape: {
-      if (!open_.empty()) {
-        close_menus(open_.size() - 1);
-        return std::nullopt;
-      }
-      const auto found = std::ranges::find(element_.widgets, true, &Widget::is_cancel);
-      return found == element_.widgets.end() ? std::nullopt : choose(*found, ChosenBy::Key);
-    }
   }
   return std::nullopt;
 }

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "haptics/effects/panel.h"
 #include "interaction/elements/element_frame.h"
 #include "interaction/elements/element_layout.h"
 
@@ -37,7 +38,7 @@ class ElementUse {
   const ElementFrame& frame() const { return frame_; }
 
   /// Takes the pointer; called at any rate, also once a tick. Gives what it chose, which is told once: a push
-  /// counts again only when the hand has come back by half of its depth (hysteresis).
+  /// counts again only when the hand has come back nearly to the plane (hysteresis).
   std::optional<Choice> point(const ElementPointer& pointer);
   std::optional<Choice> press(ElementKey key);
   /// Chooses a widget by its name, or by its text in any language, as speech does, also one of a menu that is
@@ -66,7 +67,6 @@ class ElementUse {
     bool checked;
     double value;
   };
-  enum class Side : std::uint8_t { Unknown, Front, Behind };
 
   void keep_settings(const std::vector<Widget>& widgets);
   const Setting* setting_of(const Widget& widget) const;
@@ -75,14 +75,15 @@ class ElementUse {
   bool over_sheets(const Vector2& place) const;
   void fade(double distance, double dt);
   void close_when_far(double distance, double time);
-  void decide_side(double front, bool over);
-  bool pushed(double depth, const Widget* under);
+  bool pushed(double depth);
   void set_by_place(const Widget& widget, const Vector2& place);
   std::optional<Choice> choose(const Widget& widget, ChosenBy by);
   void open_menu(const Widget& widget);
   void close_menus(std::size_t keep);
   void lay_out_again();
   void move_light(int by);
+  std::optional<Choice> press_aside(bool right);
+  std::optional<Choice> choose_first(bool Widget::*which);
 
   const Element& element_;
   TextMeasure measure_;
@@ -94,13 +95,13 @@ class ElementUse {
   bool started_ = false;
   bool near_ = false;
   double opacity_;
+  haptics::PanelSettings ground_;
   double time_ = 0.0;          // s, of the last pointer
   double far_since_ = 0.0;     // s
   double near_seconds_ = 0.0;  // s
   bool button_ = false;
-  Side side_ = Side::Unknown;
-  bool armed_ = true;      // may a push count?
-  double armed_at_ = 0.0;  // m, depth below which it is armed again
+  haptics::PanelSide side_ = haptics::PanelSide::Unknown;
+  bool armed_ = true;  // may a push count?
   std::uint64_t pushes_ = 0;
 };
 

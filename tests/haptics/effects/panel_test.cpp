@@ -21,7 +21,6 @@ PanelSettings random_panel(base::Random& random) {
   PanelSettings panel;
   panel.half = {random.uniform(0.02, 0.06), random.uniform(0.02, 0.06)};
   panel.stiffness = random.uniform(300.0, 1200.0);
-  panel.push_depth = random.uniform(0.001, 0.005);
   panel.sides = random.index(2) == 0 ? TouchableSides::Front : TouchableSides::Both;
   for (std::uint64_t i = random.index(12); i-- > 0;) {
     PanelTarget target;
@@ -33,6 +32,7 @@ PanelSettings random_panel(base::Random& random) {
     target.rings = random.uniform(0.0, 0.0002);
     target.ring_spacing = random.uniform(0.002, 0.005);
     target.detent = random.uniform(0.0, 0.5);
+    target.push_depth = 0.003;
     panel.targets.push_back(target);
   }
   return panel;
@@ -177,6 +177,55 @@ TEST(Panel, LetsGoOfAHandThatIsFarThrough) {
   EXPECT_EQ(panel.force(input_at({0.0, 0.0, -0.03})), Vector3::Zero());
 }
 
+// A hand that comes from behind into the recess, and goes back, was never in front.
+TEST(Panel, ARecessCatchesNobodyFromBehind) {
+  PanelSettings settings;
+  settings.targets.push_back({.half = {0.02, 0.02}, .recess = 0.0006});
+  Panel panel(settings);
+  open(panel);
+  panel.force(input_at({0.3, 0.0, 0.0}));
+  for (double z = -0.03; z < -0.0002; z += 0.00005) panel.force(input_at({0.0, 0.0, z}));
+  for (double z = -0.0002; z > -0.01; z -= 0.00005)
+    EXPECT_EQ(panel.force(input_at({0.0, 0.0, z})), Vector3::Zero()) << z;
+}
+
+// Relief that no device renders is felt lower; the ground stays what it is.
+TEST(Panel, SteepReliefDoesNotTakeTheGroundAway) {
+  for (const double most : {3.0, 30.0})
+    for (const double border : {0.0, 0.005}) {
+      PanelSettings settings;
+      settings.most_force = most;
+      settings.targets.push_back({.half = settings.half, .ridge = border});
+      settings.targets.push_back({.half = {0.02, 0.01}, .rings = 0.001, .ring_spacing = 0.0005});
+      Panel panel(settings);
+      open(panel);
+      const Vector3 plain(0.03, 0.03, 0.0);
+      for (double z = 0.001; z > -0.003; z -= 0.00001) panel.force(input_at(plain + z * Vector3::UnitZ()));
+      EXPECT_NEAR(panel.force(input_at(plain - 0.003 * Vector3::UnitZ())).z(), 1.8, 1e-3);
+      EXPECT_NE(panel.capped(0.1, kPanelTick).find("ridges and recesses"), std::string::npos);
+    }
+}
+
+TEST(Panel, ClosesAsSoftlyAsItOpens) {
+  PanelSettings settings;
+  Panel before(settings);
+  open(before);
+  const Vector3 place(0.0, 0.0, -0.004);
+  before.force(input_at({0.0, 0.0, 0.001}));
+  Vector3 last = Vector3::Zero();
+  for (int i = 0; i < 100; ++i) last = before.force(input_at(place));
+  EXPECT_NEAR(last.z(), 2.4, 1e-9);
+  settings.closes = true;
+  Panel closing(settings);
+  closing.continue_from(before);
+  for (int i = 0; i < 400; ++i) {
+    const Vector3 force = closing.force(input_at(place));
+    EXPECT_LE((force - last).norm(), 0.02) << i;
+    last = force;
+  }
+  EXPECT_EQ(last, Vector3::Zero());
+}
+
 TEST(Panel, ClickIsADropOfTheForce) {
   PanelSettings settings;
   settings.targets.push_back({.half = {0.02, 0.02}, .detent = 0.4});
@@ -187,7 +236,7 @@ TEST(Panel, ClickIsADropOfTheForce) {
   const auto peak = std::max_element(forces.begin(), forces.begin() + 330);
   const auto valley = std::min_element(peak, forces.end());
   EXPECT_GT(*peak - *valley, 0.1);
-  EXPECT_NEAR(double(peak - forces.begin()) * 1e-5, settings.push_depth, 2e-4);
+  EXPECT_NEAR(double(peak - forces.begin()) * 1e-5, settings.targets[0].push_depth, 2e-4);
 }
 
 // A hand that wanders over it, on each device and at each rate: the energy that has flown into it is never

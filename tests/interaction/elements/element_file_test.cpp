@@ -33,6 +33,15 @@ TEST(ElementFile, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(wrong("[[item]]\nname = \"A\"\noperation = \"extrude\"\nwith = { hight = 1 }\n")
                 .find("takes no 'hight'"),
             std::string::npos);
+  EXPECT_NE(
+      wrong("[choosing]\nnear_m = 0.002\n[[item]]\nname = \"A\"\n").find("m.toml:2:10: choosing: near_m"),
+      std::string::npos)
+      << "a push of 3 mm would end the nearness";
+  EXPECT_NE(wrong("kind = \"dialog\"\n[[item]]\nname = \"A\"\ndefault = true\n[[item]]\nname = "
+                  "\"B\"\ndefault = true\n")
+                .find("only one item can be the default"),
+            std::string::npos);
+  EXPECT_NE(wrong("[[item]]\nname = \"A\\nB\"\n").find("control characters"), std::string::npos);
   EXPECT_NE(wrong("").find("has no widgets"), std::string::npos);
   EXPECT_NE(
       wrong("turn_deg = nan\n[[item]]\nname = \"A\"\n").find("m.toml:1:12: the element: turn_deg is nan"),
