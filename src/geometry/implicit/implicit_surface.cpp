@@ -129,6 +129,10 @@ ImplicitSurface::Value ImplicitSurface::value(const Vector3& point, double time)
   return {at.value, at.gradient, at.rate};
 }
 
+double ImplicitSurface::value_at(const Vector3& point, double time) const {
+  return parts_->formula().value(point, time);
+}
+
 Bounds ImplicitSurface::bounds() const { return parts_->bounds; }
 
 bool ImplicitSurface::changes() const { return parts_->formula().uses_time(); }
@@ -151,7 +155,7 @@ void ImplicitSurface::near(const Vector3& a, const Vector3& b, double reach, dou
 }
 
 bool ImplicitSurface::inside(const Vector3& point, double time) const {
-  return box_.contains(point) && parts_->formula().value(point, time) < 0.0;
+  return box_.contains(point) && value_at(point, time) < 0.0;
 }
 
 std::optional<SurfacePlace> ImplicitSurface::way_out(const Vector3& point, double time) const {
