@@ -344,6 +344,8 @@ void add_desktop_options(CLI::App& app, DesktopCommandOptions& options) {
   app.add_option("--theme", options.theme, kThemeHelp)
       ->type_name("dark|light")
       ->check(CLI::IsMember({"dark", "light"}));
+  app.add_option("--menu", options.menu, "The haptic menu of the window (docs/elements.md), opened by Space")
+      ->type_name("FILE.toml");
   add_device_options(app, options.devices);
 }
 
@@ -425,6 +427,7 @@ base::Result<DesktopCommandOptions> understood_desktop(const DesktopCommandOptio
         "--device, --head and --navigation before a command are for the window; they come after study run, "
         "and --device after touch.");
   if (!options.theme.empty()) return base::fail("--theme is for the window, and no command opens it.");
+  if (!options.menu.empty()) return base::fail("--menu is for the window, and no command opens it.");
   if (!options.design.empty())
     return base::fail(
         fmt::format("a command comes first, and its files after it: not \"{}\".", options.design.string()));

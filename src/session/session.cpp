@@ -96,7 +96,8 @@ Session::Session(std::unique_ptr<SessionParts> parts)
       stage_(*parts_),
       hands_(*parts_),
       sharing_(*parts_),
-      techniques_(*this, *parts_) {}
+      techniques_(*this, *parts_),
+      menu_(*parts_) {}
 Session::~Session() = default;
 
 void SessionParts::tell(SessionEvent::Kind kind, std::string text, std::vector<std::string> details) {
@@ -170,9 +171,11 @@ void SessionParts::notice_device(std::size_t pointer) {
 std::vector<SessionEvent> Session::update() {
   parts_->take_in();
   parts_->move_user();
+  parts_->use_menu();
   if (parts_->grab_settings.takes_hold) parts_->shaping ? move_points() : move_held();
   parts_->renew_marks(*this);
   parts_->publish_wish();
+  parts_->tell_menu_choices();
   return std::exchange(parts_->events, {});
 }
 
@@ -188,7 +191,8 @@ void Session::move_held_by_touch() {
   for (std::size_t i = 0; i < parts_->hands.pointers(); ++i) {
     PointerParts& pointer = parts_->pointers[i];
     if (pointer.ungrabbed && (parts_->hands.view(i).buttons & 1U) != 0) continue;
-    pointer.ungrabbed = false;
+    pointer.ungrabbed = parts_->is_at_menu(i) && !parts_->is_held(i);
+    if (pointer.ungrabbed) continue;
     std::string refused;
     const bool held_part = pointer.part_grab.holds();
     auto feel = pointer.part_grab.update(*this, i, parts_->revisions, refused);

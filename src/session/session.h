@@ -16,6 +16,7 @@
 #include "session/session_files.h"
 #include "session/session_hands.h"
 #include "session/session_history.h"
+#include "session/session_menu.h"
 #include "session/session_sharing.h"
 #include "session/session_stage.h"
 #include "session/session_techniques.h"
@@ -129,6 +130,8 @@ class Session {
   const SessionSharing& sharing() const { return sharing_; }
   SessionTechniques& techniques() { return techniques_; }
   const SessionTechniques& techniques() const { return techniques_; }
+  SessionMenu& menu() { return menu_; }
+  const SessionMenu& menu() const { return menu_; }
 
  private:
   void move_held();
@@ -143,6 +146,7 @@ class Session {
   SessionHands hands_;
   SessionSharing sharing_;
   SessionTechniques techniques_;
+  SessionMenu menu_;
 };
 
 }  // namespace icome::session

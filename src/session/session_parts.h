@@ -13,6 +13,7 @@
 #include "session/display/effect_symbols.h"
 #include "session/display/render_follower.h"
 #include "session/display/workspace_marks.h"
+#include "session/elements/scene_menu.h"
 #include "session/felt/haptic_follower.h"
 #include "session/felt/haptic_loop.h"
 #include "session/hands/hand_grab.h"
@@ -148,6 +149,13 @@ struct SessionParts {
   void hold_by_technique(Session& session);
   void renew_marks(const Session& session);
 
+  // session_menu.cpp
+  void use_menu();
+  void tell_menu_choices();
+  bool is_at_menu(std::size_t pointer) const;
+  interaction::ElementFrame menu_frame() const;
+  double menu_size(std::optional<std::size_t> hand) const;
+
   // session.cpp
   void take_in();
   void notice_devices();
@@ -219,6 +227,12 @@ struct SessionParts {
   bool parts_are_new = false;             // outlines may be others
   std::shared_ptr<TargetMaker> target_maker = std::make_shared<TargetMaker>();
   std::shared_ptr<TechniqueHand> technique;  // null: by touch
+  SceneMenu menu;
+  interaction::Element menu_as_made;            // as it was opened, for where it rests
+  interaction::ElementFrame menu_pops_up = {};  // there, unless it rests elsewhere
+  ElementTheme menu_theme = ElementTheme::Light;
+  std::vector<MenuChoice> menu_chosen;  // not told yet
+  std::deque<std::function<void(const MenuChoice&)>> menu_listeners;
   realtime::LatestValue<FeltVersion> felt;
   /// FeltVersion::capped, or later than that, as the first pointer has become another one.
   std::shared_ptr<const std::vector<haptics::CappedEffect>> capped = nullptr;

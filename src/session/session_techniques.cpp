@@ -47,7 +47,8 @@ TechniqueMoment SessionParts::technique_moment() const {
   moment.distance = user.view().distance;
   for (std::size_t i = 0; i < std::min(hands.pointers(), moment.hands.size()); ++i) {
     if (!is_hand_there(i)) continue;
-    moment.hands[i] = {true, stage_from_hand(i), hands.view(i).buttons};
+    const std::uint32_t buttons = is_at_menu(i) && !is_held(i) ? 0 : hands.view(i).buttons;
+    moment.hands[i] = {true, stage_from_hand(i), buttons};
   }
   return moment;
 }

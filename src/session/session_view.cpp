@@ -180,6 +180,7 @@ void SessionParts::publish_wish() {
   if (shaping) add_handles(handles, wish.look.outline_width, wish.look.overlay);
   wish.miniature = marks ? miniature : std::nullopt;
   if (marks) add_marks(wish.look.overlay, *marks);
+  wish.look.overlay.panels.insert(wish.look.overlay.panels.end(), menu.panels().begin(), menu.panels().end());
   display.wish(wish);
 }
 

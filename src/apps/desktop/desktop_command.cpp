@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "apps/terminal.h"
+#include "interaction/elements/element_file.h"
 #include "ui/window/desktop.h"
 
 namespace icome::apps {
@@ -17,6 +18,14 @@ int run_desktop_window(int argc, char** argv, const DesktopCommandOptions& optio
   ui::DesktopOptions wanted;
   wanted.design = options.design;
   wanted.theme = options.theme;
+  if (!options.menu.empty()) {
+    auto menu = interaction::read_element_file(options.menu);
+    if (!menu) {
+      tell(menu.error().message);
+      return 1;
+    }
+    wanted.menu = std::move(*menu);
+  }
   auto settings = session_settings(options.devices);
   if (!settings) {
     tell(settings.error().message);

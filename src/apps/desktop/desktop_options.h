@@ -10,7 +10,8 @@ namespace icome::apps {
 struct DesktopCommandOptions {
   std::filesystem::path design = {};  // empty: none is named
   DeviceChoice devices = {};
-  std::string theme = {};  // "dark" or "light"; empty: as chosen before
+  std::string theme = {};           // "dark" or "light"; empty: as chosen before
+  std::filesystem::path menu = {};  // of the haptic menu; empty: as chosen before
 };
 
 }  // namespace icome::apps

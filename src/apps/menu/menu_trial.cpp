@@ -1,13 +1,11 @@
 #include "apps/menu/menu_trial.h"
 
 #include <algorithm>
-#include <memory>
-#include <utility>
 
 #include "apps/interrupt.h"
 #include "apps/status_line.h"
 #include "haptics/servo/servo.h"
-#include "interaction/elements/element_feel.h"
+#include "session/elements/felt_sheets.h"
 
 namespace icome::apps {
 namespace {
@@ -15,61 +13,6 @@ namespace {
 using interaction::ElementUse;
 
 constexpr std::size_t kRowsBetweenLooks = 4096;  // at Ctrl-C
-
-/// The panels of the element's sheets. One that closes is felt until it has faded.
-class SheetFeed {
- public:
-  explicit SheetFeed(haptics::Servo& servo) : servo_(servo) {}
-
-  /// Shows the servo what is open, where that changed.
-  void follow(const ElementUse& use, double time) {
-    const bool has_faded =
-        std::erase_if(sheets_, [&](const Sheet& it) { return it.until && *it.until <= time; }) > 0;
-    if (!has_faded && !sheets_.empty() && use.open() == open_) return;
-    open_ = use.open();
-    for (Sheet& it : sheets_) {
-      const bool stays = it.opener == nullptr || std::ranges::find(open_, it.opener) != open_.end();
-      if (!it.until && !stays) close(it, time);
-    }
-    const auto felt = interaction::feel_of(use.element(), use.layout(), use.frame());
-    for (std::size_t i = 0; i < felt.size(); ++i)
-      if (const auto* const opener = use.layout().sheets[i].opened_by; !is_open(opener)) add(opener, felt[i]);
-    std::vector<haptics::PlacedEffect> effects;
-    for (const Sheet& it : sheets_) effects.push_back(it.effect);
-    servo_.publish_effects(effects);
-  }
-
- private:
-  struct Sheet {
-    const interaction::Widget* opener;  // null: the element's own
-    haptics::PlacedEffect effect;
-    std::optional<double> until;  // s, when it will have faded
-  };
-
-  bool is_open(const interaction::Widget* opener) const {
-    return std::ranges::any_of(sheets_, [&](const Sheet& it) { return !it.until && it.opener == opener; });
-  }
-
-  void add(const interaction::Widget* opener, const interaction::FeltSheet& felt) {
-    haptics::PlacedEffect effect;
-    effect.id = next_id_++;
-    effect.world_from_effect = felt.world_from_sheet;
-    effect.panel = std::make_shared<const haptics::PanelSettings>(felt.panel);
-    sheets_.push_back({opener, std::move(effect), {}});
-  }
-
-  static void close(Sheet& sheet, double time) {
-    haptics::PanelSettings panel = *sheet.effect.panel;
-    panel.closes = true;
-    sheet.until = time + 2.0 * panel.opening_seconds;
-    sheet.effect.panel = std::make_shared<const haptics::PanelSettings>(std::move(panel));
-  }
-
-  haptics::Servo& servo_;
-  std::vector<const interaction::Widget*> open_;
-  std::vector<Sheet> sheets_;
-  std::uint64_t next_id_ = 1;
-};
 
 }  // namespace
 
@@ -79,8 +22,8 @@ std::optional<MenuTrial> try_element(ElementUse& use, devices::PathPlayer& path)
   const double mean = times.size() < 2 ? 0.001 : (times.back() - times.front()) / double(times.size() - 1);
   settings.rate_hz = std::clamp(1.0 / mean, 500.0, 10'000.0);
   haptics::Servo servo(path, settings);
-  SheetFeed feed(servo);
-  feed.follow(use, times.front());
+  session::FeltSheets sheets;
+  if (sheets.follow(&use, times.front())) servo.publish_effects(sheets.effects());
   MenuTrial trial;
   for (const haptics::CappedEffect& it : servo.capped_effects()) trial.capped = it.what;
   trial.seconds = times.back() - times.front();
@@ -104,7 +47,7 @@ std::optional<MenuTrial> try_element(ElementUse& use, devices::PathPlayer& path)
     };
     point((report.buttons & 1U) != 0);
     if (!path.has_button() && row + 1 == times.size()) point(true);
-    feed.follow(use, times[row]);
+    if (sheets.follow(&use, times[row])) servo.publish_effects(sheets.effects());
   }
   trial.near_seconds = use.near_seconds();
   trial.pushes = use.pushes();

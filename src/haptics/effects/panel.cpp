@@ -16,6 +16,7 @@ constexpr double kFlankARise = 2.0;           // at least so wide for its height
 constexpr double kDetentWidth = 0.0006;       // m, over which the force falls
 constexpr double kDampingDepth = 0.0005;      // m, over which damping sets in
 constexpr double kFrictionStiffness = 500.0;  // N/m
+constexpr double kClosingShare = 0.2;         // of the change that a panel may make, while it closes
 
 /// The smooth step 3x^2 - 2x^3 from 0 to 1, its slope and its integral from 0.
 struct Step {
@@ -109,7 +110,8 @@ PanelSide next_side(PanelSide last, double front, double height, const PanelSett
 
 Panel::Panel(PanelSettings settings) : settings_(std::move(settings)) {
   assert(settings_.half.minCoeff() > 0.0 && settings_.stiffness > 0.0 && settings_.most_force > 0.0);
-  assert(settings_.edge > 0.0 && settings_.well_reach > 0.0 && settings_.opening_seconds > 0.0);
+  assert(settings_.size > 0.0 && settings_.edge > 0.0 && settings_.well_reach > 0.0 &&
+         settings_.opening_seconds > 0.0);
   assert(std::ranges::all_of(settings_.targets, is_sound));
   settings_.way_through = std::max(settings_.way_through, settings_.most_force / settings_.stiffness);
   for (const PanelTarget& target : settings_.targets) {
@@ -194,18 +196,21 @@ void Panel::continue_from(const Effect& before) {
 }
 
 void Panel::reframe(const base::Pose& new_from_old) {
-  const Vector3 anchor = new_from_old * Vector3(memory_->anchor.x(), memory_->anchor.y(), 0.0);
-  memory_->anchor = anchor.head<2>();
+  const double size = settings_.size;
+  const Vector3 anchor = new_from_old * Vector3(size * memory_->anchor.x(), size * memory_->anchor.y(), 0.0);
+  memory_->anchor = anchor.head<2>() / size;
   memory_->last = new_from_old.linear() * memory_->last;
 }
 
 Reach Panel::reach() const {
   const double across = settings_.half.norm() + settings_.edge;
   return {.centre = Vector3::Zero(),
-          .radius = std::hypot(across, std::max(settings_.way_through + kLetsGo, settings_.well_reach))};
+          .radius = settings_.size *
+                    std::hypot(across, std::max(settings_.way_through + kLetsGo, settings_.well_reach))};
 }
 
-std::string Panel::capped(double device_mass, double dt) const {
+std::string Panel::capped(double tip_mass, double dt) const {
+  const double device_mass = tip_mass * settings_.size;
   const Scale scale = scale_on(device_mass, dt);
   std::string text = capped_spring(device_mass, dt, settings_.stiffness, kAutomaticDamping);
   const auto add = [&](double share, const char* what) {
@@ -302,7 +307,12 @@ Vector3 Panel::well_force(const EffectInput& input, const Ground& ground, double
   return scale * (Vector3(along.x(), along.y(), towards) - damping * input.velocity);
 }
 
-Vector3 Panel::force(const EffectInput& input) {
+/// A tip that moves `size` times as far as its hand has a mass `size` times as small (MappedDevice).
+Vector3 Panel::force(const EffectInput& at_tip) {
+  EffectInput input = at_tip;
+  input.position /= settings_.size;
+  input.velocity /= settings_.size;
+  input.device_mass *= settings_.size;
   Memory& memory = *memory_;
   const double opens = input.dt / settings_.opening_seconds;
   memory.open = std::clamp(memory.open + (settings_.closes ? -opens : opens), 0.0, 1.0);
@@ -322,7 +332,7 @@ Vector3 Panel::force(const EffectInput& input) {
             well_force(input, ground, memory.open * scale.wells);
   }
   const Vector3 change = asked - memory.last;
-  const double most = kMostChange * input.dt;
+  const double most = (settings_.closes ? kClosingShare : 1.0) * kMostChange * input.dt;
   if (change.norm() > most) asked = memory.last + change * (most / change.norm());
   return memory.last = asked;
 }

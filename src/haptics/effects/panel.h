@@ -41,6 +41,7 @@ struct PanelSettings {
   double well_reach = 0.010;     // m, > 0: wells pull from this far before the ground
   double opening_seconds = 0.3;  // s, > 0: its forces grow from nothing within this
   bool closes = false;           // they fade to nothing instead, within the same time
+  double size = 1.0;             // > 0: metres of the world for each metre here; forces stay the same
   TouchableSides sides = TouchableSides::Front;
   std::vector<PanelTarget> targets = {};
 };
@@ -57,7 +58,8 @@ enum class PanelSide : std::uint8_t {
 /// open plane from behind, or where the ground has let go, does it come to the other one. Real-time safe.
 PanelSide next_side(PanelSide last, double front, double height, const PanelSettings& settings);
 
-/// The flat ground of an interface element that lies in the scene, in its own plane z = 0, with front +z: it
+/// The flat ground of an interface element that lies in the scene, in its own plane z = 0, with front +z, in
+/// metres of its own, as a hand feels them whose motions are scaled (PanelSettings::size): it
 /// carries the hand from the front, and lets it pass from behind (thesis 6.6.3), or carries it from both
 /// sides. A tip that was behind it when it opened, or came to there round its edge, feels nothing.
 ///
@@ -66,7 +68,8 @@ PanelSide next_side(PanelSide last, double front, double height, const PanelSett
 ///
 /// All but damping and friction is one potential of place, so that the panel gives back no more than it was
 /// given: the ground with its relief and detent fades over the edge, wells fade towards the hand. Forces
-/// begin with a ramp, and change by at most kMostChange.
+/// begin with a ramp, and change by at most kMostChange; by a fifth of that while it closes, as another one
+/// may open at the same place.
 class Panel final : public Effect {
  public:
   static constexpr double kMostChange = 400.0;  // N/s: 0.4 N in a tick at 1 kHz
@@ -84,10 +87,11 @@ class Panel final : public Effect {
   void continue_from(const Effect& before) override;
   void reframe(const base::Pose& new_from_old) override;
   double mass_needed(double device_mass, double dt) const override {
-    return haptics::mass_needed(2.0 * settings_.stiffness, kAutomaticDamping, device_mass, dt);
+    const double own = device_mass * settings_.size;
+    return haptics::mass_needed(2.0 * settings_.stiffness, kAutomaticDamping, own, dt) / settings_.size;
   }
   Reach reach() const override;
-  std::string capped(double device_mass, double dt) const override;
+  std::string capped(double tip_mass, double dt) const override;
 
   /// The side on which the tip was in the last tick.
   PanelSide side() const { return memory_->side; }

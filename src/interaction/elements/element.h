@@ -60,6 +60,7 @@ struct Widget {
   double step = 0.0, value = 0.0;  // of Slider; step 0: any
   std::string operation = {};      // of `icome edit`; empty: the name is all that is told
   Value::Fields with = {};         // its arguments
+  std::string command = {};        // of the window instead, such as "view.home"
   bool is_default = false;         // of a dialog: what Enter chooses
   bool is_cancel = false;          // of a dialog: what Escape chooses
   WidgetFeel feel = {};

@@ -40,6 +40,12 @@ haptics::PanelSettings panel_of(const Element& element, const LaidSheet& sheet) 
 
 }  // namespace
 
+base::Pose world_from_sheet(const ElementFrame& frame, const LaidSheet& sheet) {
+  base::Pose pose = frame.world_from_element();
+  pose.translation() = frame.in_world(sheet.centre);
+  return pose;
+}
+
 haptics::PanelSettings ground_of(const Element& element) {
   haptics::PanelSettings panel;
   panel.stiffness = element.ground.stiffness;
@@ -53,9 +59,8 @@ std::vector<FeltSheet> feel_of(const Element& element, const ElementLayout& layo
                                const ElementFrame& frame) {
   std::vector<FeltSheet> felt;
   for (const LaidSheet& sheet : layout.sheets) {
-    FeltSheet one{frame.world_from_element(), panel_of(element, sheet)};
-    one.world_from_sheet.translation() = frame.in_world(sheet.centre);
-    felt.push_back(std::move(one));
+    felt.push_back({world_from_sheet(frame, sheet), panel_of(element, sheet)});
+    felt.back().panel.size = frame.size;
   }
   for (const LaidWidget& laid : layout.widgets)
     if (laid.widget->can_be_chosen())

@@ -13,6 +13,9 @@ struct FeltSheet {
   haptics::PanelSettings panel;
 };
 
+/// The place of a sheet: x right, y up, z out of the front.
+base::Pose world_from_sheet(const ElementFrame& frame, const LaidSheet& sheet);
+
 /// The ground of the element's sheets, without size or targets.
 haptics::PanelSettings ground_of(const Element& element);
 

@@ -268,6 +268,10 @@ class ElementReader {
   /// The operation, whose arguments must be among its parameters; what they are is checked when it is done.
   void read_operation(KeyReader& keys, Widget& widget) {
     widget.operation = keys.plain("operation");
+    widget.command = keys.plain("command");
+    if (!widget.operation.empty() && !widget.command.empty())
+      problems_.add(keys.place_of("command"),
+                    fmt::format("item '{}': it does either an operation or a command.", widget.name));
     const TomlNode* const with = keys.table("with");
     if (with != nullptr) widget.with = *value_of(*with).fields();
     if (widget.operation.empty()) {

@@ -79,12 +79,12 @@ ElementUse::Setting* ElementUse::setting_of(const Widget& widget) {
 bool ElementUse::is_checked(const Widget& widget) const { return setting_of(widget)->checked; }
 double ElementUse::value_of(const Widget& widget) const { return setting_of(widget)->value; }
 
-double ElementUse::distance_to_sheets(const base::Vector3& tip) const {
-  const Vector2 place = frame_.projected(tip);
+double ElementUse::distance_to(const base::Vector3& place) const {
+  const Vector2 on_plane = frame_.projected(place);
   double aside = std::numeric_limits<double>::infinity();
   for (const LaidSheet& sheet : layout_.sheets)
-    aside = std::min(aside, ((place - sheet.centre).cwiseAbs() - sheet.half).cwiseMax(0.0).norm());
-  return std::hypot(aside, frame_.front_distance(tip));
+    aside = std::min(aside, ((on_plane - sheet.centre).cwiseAbs() - sheet.half).cwiseMax(0.0).norm());
+  return std::hypot(aside, frame_.front_distance(place));
 }
 
 /// Equation 5.6: does the projection lie in a rectangle that is slightly larger than the element?
@@ -95,7 +95,11 @@ bool ElementUse::over_sheets(const Vector2& place) const {
   });
 }
 
-void ElementUse::fade(double distance, double dt) {
+/// Fades on to that time.
+void ElementUse::fade(double distance, double time) {
+  const double dt = started_ ? std::max(0.0, time - time_) : 0.0;
+  started_ = true;
+  time_ = time;
   const FadingSettings& fading = element_.fading;
   const double share = smooth((fading.begins - distance) / (fading.begins - fading.opaque));
   const double aim = fading.least + (1.0 - fading.least) * share;
@@ -125,26 +129,35 @@ void ElementUse::set_by_place(const Widget& widget, const Vector2& place) {
   setting_of(widget)->value = stepped(widget, widget.least + share * (widget.most - widget.least));
 }
 
+void ElementUse::rest(double time, bool attended) {
+  fade(attended ? 0.0 : std::numeric_limits<double>::infinity(), time);
+  far_since_ = time;
+  near_ = false;
+}
+
+void ElementUse::change_pointer() {
+  side_ = haptics::PanelSide::Unknown;
+  button_ = true;
+}
+
 std::optional<Choice> ElementUse::point(const ElementPointer& pointer) {
-  const double dt = started_ ? std::max(0.0, pointer.time - time_) : 0.0;
-  if (!started_) far_since_ = pointer.time;
+  if (!pointed_) far_since_ = pointer.time;
   const Vector2 place = frame_.projected(pointer.tip);
   const double front = frame_.front_distance(pointer.tip);
-  const double distance = distance_to_sheets(pointer.tip);
+  const double distance = distance_to(pointer.tip);
   const bool over = over_sheets(place);
   near_ = over && std::abs(front) < element_.choosing.near;
-  if (near_) near_seconds_ += dt;
-  fade(distance, dt);
+  if (near_ && pointed_) near_seconds_ += std::max(0.0, pointer.time - time_);
+  fade(distance, pointer.time);
   close_when_far(distance, pointer.time);
   side_ = over ? haptics::next_side(side_, front, 0.0, ground_) : haptics::PanelSide::Unknown;
   const LaidWidget* const under = over ? layout_.at(place) : nullptr;
   const bool can_light =
       near_ && under != nullptr && under->widget->can_be_chosen() && under->widget->enabled;
   if (near_ || distance <= element_.choosing.recede) lit_ = can_light ? under->widget : nullptr;
-  const bool clicked = started_ && pointer.button && !button_ && element_.choosing.by_click;
+  const bool clicked = pointed_ && pointer.button && !button_ && element_.choosing.by_click;
   const bool pushed_in = pushed(-front) && element_.choosing.by_push;
-  started_ = true;
-  time_ = pointer.time;
+  pointed_ = true;
   button_ = pointer.button;
   if (!can_light || (!clicked && !pushed_in)) return std::nullopt;
   set_by_place(*under->widget, place);

@@ -40,6 +40,10 @@ class ElementUse {
   /// Takes the pointer; called at any rate, also once a tick. Gives what it chose, which is told once: a push
   /// counts again only when the hand has come back nearly to the plane (hysteresis).
   std::optional<Choice> point(const ElementPointer& pointer);
+  /// Lets time pass without a pointer. An element that somebody attends to, such as with keys, fades in.
+  void rest(double time, bool attended);
+  /// The next pointer is another one: a button that it holds is no click, and it comes from anywhere.
+  void change_pointer();
   std::optional<Choice> press(ElementKey key);
   /// Chooses a widget by its name, or by its text in any language, as speech does, also one of a menu that is
   /// not open; nothing where there is none, or it is disabled.
@@ -53,6 +57,8 @@ class ElementUse {
   const Widget* lit() const { return lit_; }
   /// Is the pointer near an element that is open (thesis 5.7.2)?
   bool is_near() const { return near_; }
+  /// The distance of a place to the nearest sheet, in the element's metres.
+  double distance_to(const base::Vector3& place) const;
   double opacity() const { return opacity_; }
   bool is_checked(const Widget& widget) const;
   double value_of(const Widget& widget) const;
@@ -71,9 +77,8 @@ class ElementUse {
   void keep_settings(const std::vector<Widget>& widgets);
   const Setting* setting_of(const Widget& widget) const;
   Setting* setting_of(const Widget& widget);
-  double distance_to_sheets(const base::Vector3& tip) const;
   bool over_sheets(const Vector2& place) const;
-  void fade(double distance, double dt);
+  void fade(double distance, double time);
   void close_when_far(double distance, double time);
   bool pushed(double depth);
   void set_by_place(const Widget& widget, const Vector2& place);
@@ -92,7 +97,8 @@ class ElementUse {
   std::vector<const Widget*> open_;
   std::vector<Setting> settings_;
   const Widget* lit_ = nullptr;
-  bool started_ = false;
+  bool started_ = false;  // has it been told a time?
+  bool pointed_ = false;  // has there been a pointer?
   bool near_ = false;
   double opacity_;
   haptics::PanelSettings ground_;

@@ -291,16 +291,22 @@ charts::Image draw_sheet(const interaction::ElementUse& use, std::size_t sheet, 
   return image;
 }
 
+void place_panel(const interaction::ElementUse& use, std::size_t sheet, render::SceneOverlay::Panel& panel) {
+  const LaidSheet& laid = use.layout().sheets[sheet];
+  const interaction::ElementFrame& frame = use.frame();
+  const Vector2 half = frame.size * laid.half;
+  panel.at = frame.in_world(laid.centre);
+  panel.lying = {half.x() * frame.right(), half.y() * frame.up()};
+  panel.alpha = use.opacity();
+}
+
 std::vector<render::SceneOverlay::Panel> panels_of(const interaction::ElementUse& use, ElementTheme theme,
                                                    double resolution) {
   std::vector<render::SceneOverlay::Panel> panels;
   for (std::size_t i = 0; i < use.layout().sheets.size(); ++i) {
-    const LaidSheet& sheet = use.layout().sheets[i];
     render::SceneOverlay::Panel panel;
     panel.picture = std::make_shared<charts::Image>(draw_sheet(use, i, theme, resolution));
-    panel.at = use.frame().in_world(sheet.centre);
-    panel.lying = {sheet.half.x() * use.frame().right(), sheet.half.y() * base::Vector3::UnitY()};
-    panel.alpha = use.opacity();
+    place_panel(use, i, panel);
     panels.push_back(std::move(panel));
   }
   return panels;

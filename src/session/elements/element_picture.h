@@ -16,7 +16,10 @@ enum class ElementTheme : std::uint8_t { Light, Dark, HighContrast };
 charts::Image draw_sheet(const interaction::ElementUse& use, std::size_t sheet, ElementTheme theme,
                          double resolution);
 
-/// All its sheets as they lie in the scene, with its opacity.
+/// Puts the picture of a sheet where that lies in the scene, with the element's opacity.
+void place_panel(const interaction::ElementUse& use, std::size_t sheet, render::SceneOverlay::Panel& panel);
+
+/// All its sheets as they lie in the scene.
 std::vector<render::SceneOverlay::Panel> panels_of(const interaction::ElementUse& use, ElementTheme theme,
                                                    double resolution);
 

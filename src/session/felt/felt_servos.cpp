@@ -7,7 +7,7 @@ namespace icome::session {
 void FeltServos::add(haptics::Servo& servo, std::size_t place) {
   const std::lock_guard lock(mutex_);
   servos_.insert(servos_.begin() + std::ptrdiff_t(std::min(place, servos_.size())), &servo);
-  if (!effects_.empty()) servo.publish_effects(effects_);
+  if (!effects_.empty() || !menu_.empty()) servo.publish_effects(all_effects());
   if (scene_) servo.publish(scene_);
 }
 
@@ -25,12 +25,31 @@ void FeltServos::publish(const std::shared_ptr<const haptics::HapticScene>& scen
 void FeltServos::publish_effects(const std::vector<haptics::PlacedEffect>& effects) {
   const std::lock_guard lock(mutex_);
   effects_ = effects;
-  for (haptics::Servo* servo : servos_) servo->publish_effects(effects);
+  const auto all = all_effects();
+  for (haptics::Servo* servo : servos_) servo->publish_effects(all);
+}
+
+void FeltServos::publish_menu(const std::vector<haptics::PlacedEffect>& sheets) {
+  const std::lock_guard lock(mutex_);
+  menu_ = sheets;
+  const auto all = all_effects();
+  for (haptics::Servo* servo : servos_) servo->publish_effects(all);
+}
+
+std::vector<haptics::PlacedEffect> FeltServos::all_effects() const {
+  std::vector<haptics::PlacedEffect> all = effects_;
+  all.insert(all.end(), menu_.begin(), menu_.end());
+  return all;
 }
 
 std::vector<haptics::CappedEffect> FeltServos::capped_effects() const {
   const std::lock_guard lock(mutex_);
-  return servos_.empty() ? std::vector<haptics::CappedEffect>() : servos_.front()->capped_effects();
+  if (servos_.empty()) return {};
+  auto capped = servos_.front()->capped_effects();
+  std::erase_if(capped, [&](const haptics::CappedEffect& it) {
+    return std::ranges::find(menu_, it.id, &haptics::PlacedEffect::id) != menu_.end();
+  });
+  return capped;
 }
 
 }  // namespace icome::session

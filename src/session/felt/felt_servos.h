@@ -19,14 +19,19 @@ class FeltServos {
 
   void publish(const std::shared_ptr<const haptics::HapticScene>& scene);
   void publish_effects(const std::vector<haptics::PlacedEffect>& effects);
-  /// Servo::capped_effects() of the first one.
+  /// Publishes the sheets of a menu, which are felt besides the world's effects.
+  void publish_menu(const std::vector<haptics::PlacedEffect>& sheets);
+  /// Servo::capped_effects() of the first one, without those of a menu.
   std::vector<haptics::CappedEffect> capped_effects() const;
 
  private:
+  std::vector<haptics::PlacedEffect> all_effects() const;
+
   mutable std::mutex mutex_;  // of all that follows
   std::vector<haptics::Servo*> servos_;
   std::shared_ptr<const haptics::HapticScene> scene_;  // null: none yet
   std::vector<haptics::PlacedEffect> effects_;
+  std::vector<haptics::PlacedEffect> menu_;
 };
 
 }  // namespace icome::session

@@ -42,7 +42,8 @@ HapticLoop::HapticLoop(std::vector<std::unique_ptr<devices::PointerDevice>> devi
       display_(display),
       forces_(kForceRoom),
       ticks_a_sample_(std::max(1, int(std::lround(settings.rate_hz / kForceSamples)))),
-      trace_(std::size_t(std::ceil(settings.rate_hz * kTraceRoom))) {
+      trace_(std::size_t(std::ceil(settings.rate_hz * kTraceRoom))),
+      watched_(std::size_t(std::ceil(settings.rate_hz * kTraceRoom))) {
   for (auto& device : devices) {
     auto hand = std::make_unique<Hand>();
     hand->device = std::move(device);
@@ -206,6 +207,8 @@ void HapticLoop::tick_hand(std::size_t place, Hand& hand, double dt, std::int64_
   view.spared = hand.servo->limiter().acted(haptics::LimiterAct::Continuous);
   hand.to_main.publish(view);
   display_.publish(place, view);
+  if (watches_.load(std::memory_order_relaxed) && !lost)
+    watched_.try_push({place, time, view.tip, view.buttons});
   if (place != 0) return;
   sample_force(report, time);
   if (traces_.load(std::memory_order_relaxed) && !trace_.try_push(view))
@@ -262,6 +265,12 @@ void HapticLoop::give_forces(std::size_t pointer, bool given) {
 std::vector<PointerView> HapticLoop::take_trace() {
   std::vector<PointerView> ticks;
   while (const auto tick = trace_.try_pop()) ticks.push_back(*tick);
+  return ticks;
+}
+
+std::vector<PointerTick> HapticLoop::take_watched() {
+  std::vector<PointerTick> ticks;
+  while (const auto tick = watched_.try_pop()) ticks.push_back(*tick);
   return ticks;
 }
 

@@ -18,6 +18,14 @@
 
 namespace icome::session {
 
+/// A tick of a pointer, as a menu in the scene follows it.
+struct PointerTick {
+  std::size_t pointer = 0;
+  std::int64_t time = 0;                      // ns, steady clock
+  base::Vector3 tip = base::Vector3::Zero();  // m, stage frame
+  std::uint32_t buttons = 0;                  // bit i: button i is down
+};
+
 /// The hands of a session: one thread that ticks a servo for each pointer device and tells main and display
 /// after each tick where the pointers are. Pointers come and go while it runs, and nobody waits for that: the
 /// force of one that goes is none before it is let go of, the forces of one that comes begin with the ramp,
@@ -84,6 +92,11 @@ class HapticLoop {
   void trace(bool on) { traces_.store(on, std::memory_order_relaxed); }
   /// The ticks kept since the last call, oldest first.
   std::vector<PointerView> take_trace();
+  /// Begins to keep the ticks of all pointers, or ends that.
+  void watch(bool on) { watches_.store(on, std::memory_order_relaxed); }
+  /// The ticks of all pointers since the last call, oldest first; where main has not called for seconds, the
+  /// newest are not among them.
+  std::vector<PointerTick> take_watched();
   /// Ticks that found no room, so far, as main had not called for seconds.
   std::uint64_t lost_ticks() const { return lost_ticks_.load(std::memory_order_relaxed); }
   /// The loop of the thread; null before the start.
@@ -144,6 +157,8 @@ class HapticLoop {
   int ticks_a_sample_;
   realtime::MessagePipe<PointerView> trace_;
   std::atomic<bool> traces_ = false;
+  realtime::MessagePipe<PointerTick> watched_;
+  std::atomic<bool> watches_ = false;
   std::atomic<std::uint64_t> lost_ticks_ = 0;
   std::atomic<std::uint64_t> ticks_ = 0;
   std::unique_ptr<realtime::LoopRunner> loop_;  // last: stops before the rest goes

@@ -61,7 +61,7 @@ void OperationActions::add(QMenu& group, const Operation& operation, QString& ta
 }
 
 void OperationActions::choose(const Operation& operation) {
-  const auto fields = selected_fields(operation, session_.selection());
+  const auto fields = completed_fields(operation, {}, session_.selection());
   if (!asks_only_for_objects(operation) || !fields) return hooks_.ask(operation);
   if (!hooks_.begin()) return;
   const auto done = perform_operation(session_, operation, *fields);

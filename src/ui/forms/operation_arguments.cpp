@@ -48,15 +48,20 @@ Value value_of(const Parameter& parameter, const std::vector<ObjectId>& objects)
   return parameter.kind == ParameterKind::Object ? names.front() : Value(std::move(names));
 }
 
-std::optional<Value::Fields> selected_fields(const Operation& operation,
-                                             const std::vector<ObjectId>& selection) {
-  const auto shares = shares_of(operation.parameters, selection);
-  Value::Fields fields;
+std::optional<Value::Fields> completed_fields(const Operation& operation, const Value::Fields& given,
+                                              const std::vector<ObjectId>& selection) {
+  std::vector<Parameter> missing;
+  for (const Parameter& it : operation.parameters)
+    if (it.required && it.only_for.empty() &&
+        std::ranges::count(given, it.name, &Value::Fields::value_type::first) == 0)
+      missing.push_back(it);
+  const auto shares = shares_of(missing, selection);
+  Value::Fields fields = given;
   std::size_t used = 0;
   for (std::size_t i = 0; i < shares.size(); ++i) {
     if (shares[i].empty()) return std::nullopt;
     used += shares[i].size();
-    fields.emplace_back(operation.parameters[i].name, value_of(operation.parameters[i], shares[i]));
+    fields.emplace_back(missing[i].name, value_of(missing[i], shares[i]));
   }
   const bool all = shares.empty() || used == selection.size();
   return all ? std::optional(std::move(fields)) : std::nullopt;

@@ -20,10 +20,11 @@ std::vector<std::vector<world::ObjectId>> shares_of(const std::vector<interactio
 interaction::Value value_of(const interaction::Parameter& parameter,
                             const std::vector<world::ObjectId>& objects);
 
-/// The fields of an operation where the selection gives all that it asks for; nothing where too few or too
-/// many objects are selected.
-std::optional<interaction::Value::Fields> selected_fields(const interaction::Operation& operation,
-                                                          const std::vector<world::ObjectId>& selection);
+/// These fields, with the objects that the operation asks for besides them taken from the selection; nothing
+/// where too few or too many are selected, or something else is missing.
+std::optional<interaction::Value::Fields> completed_fields(const interaction::Operation& operation,
+                                                           const interaction::Value::Fields& given,
+                                                           const std::vector<world::ObjectId>& selection);
 
 /// Is the parameter used while the operation's first parameter, a choice, has this value?
 bool is_asked(const interaction::Parameter& parameter, const std::string& choice);

@@ -1,5 +1,6 @@
 #include "ui/tools/scene_tools.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace icome::ui {
@@ -53,6 +54,11 @@ std::optional<ViewMove> SceneTools::view_move(const SceneInput& input) const {
 void SceneTools::press(const SceneInput& input) {
   mouse_ = input;
   if (view_drag_.active() || busy()) return;  // a second button does not disturb the first
+  if (input.button == Qt::LeftButton && tool_ != Tool::Touch) {
+    presses_menu_ = true;
+    if (point_at_menu(input)) return;
+    presses_menu_ = false;
+  }
   if (const auto how = view_move(input)) {
     view_drag_.begin(*how, input);
     view_button_ = input.button;
@@ -68,6 +74,7 @@ void SceneTools::press(const SceneInput& input) {
 
 void SceneTools::move(const SceneInput& input) {
   mouse_ = input;
+  if (!view_drag_.active() && !busy() && point_at_menu(input)) return;
   view_drag_.follow(input);
   move_tool_.follow(input);
   part_tool_.follow(input);
@@ -77,6 +84,10 @@ void SceneTools::move(const SceneInput& input) {
 
 void SceneTools::release(const SceneInput& input) {
   mouse_ = input;
+  if (input.button == Qt::LeftButton && std::exchange(presses_menu_, false)) {
+    point_at_menu(input);
+    return;
+  }
   if (view_drag_.active() && input.button == view_button_) {
     view_drag_.follow(input);
     view_drag_.end();
@@ -113,6 +124,83 @@ bool SceneTools::pen(const SceneInput& input, double pressure) {
   touch_tool_.follow(input);
   touch_tool_.press(pressure);
   return true;
+}
+
+/// Is the mouse on the haptic menu, and not a hand's? The menu follows it then.
+bool SceneTools::point_at_menu(const SceneInput& input) {
+  return tool_ != Tool::Touch && session_.menu().point(input.ray(session_.view().now()), presses_menu_);
+}
+
+/// How far from the eye a menu at that place of the picture is before all that is around there, m.
+double SceneTools::distance_before_things(const SceneInput& at) const {
+  constexpr double kBefore = 0.8;  // of the way to the nearest thing
+  constexpr double kAround = 0.4;  // of the picture's shorter side, to each side of the place
+  constexpr int kSteps = 3;        // to each side
+  const interaction::View& view = session_.view().now();
+  double distance = view.distance;
+  for (int x = -kSteps; x <= kSteps; ++x)
+    for (int y = -kSteps; y <= kSteps; ++y) {
+      SceneInput beside = at;
+      beside.at += kAround / kSteps * at.shorter_side() * QPointF(x, y);
+      if (const auto picked = session_.stage().pick(beside.ray(view)))
+        distance = std::min(distance, kBefore * picked->place.distance);
+    }
+  return distance;
+}
+
+/// Asks for the menu where the mouse is; without a mouse in the scene at the first hand.
+void SceneTools::ask_for_menu() {
+  session::MenuSpot spot;
+  if (mouse_) {
+    spot.way = mouse_->ray(session_.view().now());
+    spot.distance = distance_before_things(*mouse_);
+  } else if (session_.hands().pointers() > 0 && session_.hands().mouse() != std::size_t(0)) {
+    spot.hand = 0;
+  }
+  listener_.menu(spot);
+}
+
+/// The second button of a stylus opens the menu there, and closes it. A technique travels with that button.
+void SceneTools::notice_menu_buttons() {
+  for (std::size_t i = 0; i < std::min(session_.hands().pointers(), menu_buttons_.size()); ++i) {
+    const bool down = session_.hands().mouse() != i && (session_.hands().pointer(i).buttons & 2U) != 0;
+    if (down && !std::exchange(menu_buttons_[i], down) && !session_.techniques().current())
+      listener_.menu({.hand = i});
+    menu_buttons_[i] = down;
+  }
+}
+
+/// A key for the haptic menu while it is open.
+bool SceneTools::menu_key(int key) {
+  using interaction::ElementKey;
+  session::SessionMenu& menu = session_.menu();
+  switch (key) {
+    case Qt::Key_Up:
+      menu.press(ElementKey::Up);
+      return true;
+    case Qt::Key_Down:
+      menu.press(ElementKey::Down);
+      return true;
+    case Qt::Key_Left:
+      menu.press(ElementKey::Left);
+      return true;
+    case Qt::Key_Right:
+      menu.press(ElementKey::Right);
+      return true;
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      menu.press(ElementKey::Enter);
+      return true;
+    case Qt::Key_Escape: {
+      const bool backs_out =
+          !menu.use()->open().empty() ||
+          std::ranges::any_of(menu.use()->element().widgets, &interaction::Widget::is_cancel);
+      backs_out ? menu.press(ElementKey::Escape) : menu.close();
+      return true;
+    }
+    default:
+      return false;
+  }
 }
 
 bool SceneTools::escape() {
@@ -168,6 +256,7 @@ bool SceneTools::arrow(int key, Qt::KeyboardModifiers modifiers, bool repeats) {
 
 bool SceneTools::key_press(int key, Qt::KeyboardModifiers modifiers, bool repeats) {
   if (modifiers & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier)) return false;
+  if (session_.menu().use() != nullptr && menu_key(key)) return true;
   switch (key) {
     case Qt::Key_Escape:
       return escape();
@@ -187,6 +276,13 @@ bool SceneTools::key_press(int key, Qt::KeyboardModifiers modifiers, bool repeat
       choose(Tool((int(tool_) + kToolCount - 1) % kToolCount));
       return true;
     case Qt::Key_Space:
+      if (!stays_) {
+        if (!repeats && !busy()) ask_for_menu();
+        return true;
+      }
+      [[fallthrough]];
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
       if (tool_ == Tool::Touch) touch_tool_.press(TouchTool::kButton);
       return tool_ == Tool::Touch;
     default:
@@ -202,6 +298,10 @@ bool SceneTools::key_release(int key) {
       if (move_tool_.axis() == key - Qt::Key_X) keep_to(std::nullopt);
       return true;
     case Qt::Key_Space:
+      if (!stays_) return true;
+      [[fallthrough]];
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
       touch_tool_.press(0.0);
       return tool_ == Tool::Touch;
     default:
@@ -233,7 +333,8 @@ void SceneTools::resize(const QSizeF& size) {
 
 void SceneTools::look_for_hovered() {
   hovered_.reset();
-  const bool looks = mouse_ && !view_drag_.active() && !busy();
+  const bool looks = mouse_ && !view_drag_.active() && !busy() && !presses_menu_ &&
+                     !session_.menu().met_by(mouse_->ray(session_.view().now()));
   const bool sees_parts = looks && tool_ == Tool::Select;
   if (part_tool_.hover(sees_parts ? mouse_ : std::nullopt) || !looks) return;
   if (tool_ == Tool::Touch) {
@@ -244,6 +345,7 @@ void SceneTools::look_for_hovered() {
 }
 
 void SceneTools::tick() {
+  if (!stays_) notice_menu_buttons();
   move_tool_.tick();
   part_tool_.tick();
   touch_tool_.tick();

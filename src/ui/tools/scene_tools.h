@@ -1,7 +1,9 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <optional>
 
+#include "session/felt/haptic_loop.h"
 #include "session/session.h"
 #include "ui/tools/move_tool.h"
 #include "ui/tools/part_tool.h"
@@ -26,6 +28,8 @@ class SceneTools {
     std::function<void(const std::string&)> refused = [](const std::string&) {
     };                                                    // why something was not done
     std::function<void(QPointF)> asked = [](QPointF) {};  // a right click, for the menu there
+    /// The haptic menu is asked for, or to go.
+    std::function<void(const session::MenuSpot&)> menu = [](const session::MenuSpot&) {};
   };
   SceneTools(session::Session& session, Listener listener);
   SceneTools(const SceneTools&) = delete;
@@ -71,6 +75,11 @@ class SceneTools {
 
  private:
   bool escape();
+  bool point_at_menu(const SceneInput& input);
+  bool menu_key(int key);
+  double distance_before_things(const SceneInput& at) const;
+  void ask_for_menu();
+  void notice_menu_buttons();
   bool arrow(int key, Qt::KeyboardModifiers modifiers, bool repeats);
   std::optional<ViewMove> view_move(const SceneInput& input) const;
   void look_for_hovered();
@@ -86,7 +95,9 @@ class SceneTools {
   ViewDrag view_drag_;
   Qt::MouseButton view_button_ = {};  // the button that drags the view
   Tool tool_ = Tool::Select;
-  bool stays_ = false;  // the tool stays chosen
+  bool stays_ = false;                                                      // the tool stays chosen
+  bool presses_menu_ = false;                                               // the mouse does
+  std::array<bool, session::HapticLoop::kMostPointers> menu_buttons_ = {};  // are they down?
   QSizeF size_ = {1.0, 1.0};
   std::optional<SceneInput> mouse_ = {};
   std::optional<world::ObjectId> hovered_ = {};

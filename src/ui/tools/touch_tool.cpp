@@ -104,6 +104,16 @@ void TouchTool::tick_freely() {
   if (target.allFinite()) session_.hands().aim(target);
 }
 
+/// Before the haptic menu the hand hovers; it pushes in while the button is down.
+void TouchTool::tick_menu(const base::Vector3& met) {
+  constexpr double kHovers = 0.006;  // m of the menu, before its plane
+  const interaction::ElementUse& menu = *session_.menu().use();
+  const double push = 4.0 * menu.element().choosing.push_depth * pressure_ / kButton;
+  const double before = menu.frame().size * (pressing() ? -push : kHovers);
+  const base::Vector3 place = met + before * menu.frame().normal();
+  pressing() ? session_.hands().aim(place) : session_.hands().put(place);
+}
+
 void TouchTool::tick() {
   if (!active_) return;
   if (const session::TechniqueHand* hand = session_.techniques().current();
@@ -112,6 +122,7 @@ void TouchTool::tick() {
   if (free_) return tick_freely();
   session_.hands().hold_buttons(0);
   const interaction::View& view = session_.view().now();
+  if (const auto met = session_.menu().met_by(input_.ray(view))) return tick_menu(*met);
   interaction::MouseHand::Input input;
   input.ray = input_.ray(view);
   input.distance = view.distance;

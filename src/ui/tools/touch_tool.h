@@ -48,6 +48,7 @@ class TouchTool {
  private:
   void tick_technique(const session::TechniqueHand& hand);
   void tick_freely();
+  void tick_menu(const base::Vector3& met);
   std::optional<double> depth_under(const session::TechniqueHand& hand, const interaction::Ray& ray) const;
 
   session::Session& session_;

@@ -38,7 +38,7 @@ int run_desktop(int argc, char** argv, const DesktopOptions& options, session::S
     std::fprintf(stderr, "icome: %s\n", base::terminal_text(session.error().message).c_str());
     return 1;
   }
-  MainWindow window(**session, kept, {.theme = theme});
+  MainWindow window(**session, kept, {.theme = theme, .menu = options.menu});
   window.show();
   window.begin(options.design);
   return QApplication::exec();

@@ -1,7 +1,9 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "interaction/elements/element.h"
 #include "session/session.h"
 
 namespace icome::ui {
@@ -9,6 +11,7 @@ namespace icome::ui {
 struct DesktopOptions {
   std::filesystem::path design = {};  // to open; empty: work left unsaved by a crash, or an empty design
   std::string theme = {};             // "dark", "light"; empty: as chosen before, or as the system has it
+  std::optional<interaction::Element> menu = {};  // the haptic menu; none: as chosen before
 };
 
 /// Opens the window on a session with these settings (apps chooses the devices) and runs until it is closed;

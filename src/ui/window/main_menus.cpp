@@ -56,7 +56,9 @@ ShortcutSheet::Part mouse_part() {
            {"Move by 1 mm, by 10 mm", "Arrow keys, with Shift"},
            {"\u2026 away, nearer", "Page Up, Page Down"},
            {"Turn the view (nothing selected)", "Arrow keys"},
-           {"Touch", "Press the button, the pen or Space"},
+           {"Touch", "Press the button, the pen or Enter"},
+           {"Haptic menu", "Space, or a stylus's second button"},
+           {"\u2026 choose from it", "Click, push, or arrow keys and Enter"},
            {"Next tool", "Tab"},
            {"Back out", "Esc"}}};
 }
@@ -119,6 +121,8 @@ void MainWindow::make_tool_menu(QMenu& menu) {
     group->addAction(action);
     tool_actions_[int(it.tool)] = action;
   }
+  menu.addSeparator();
+  haptic_menu_.fill(menu);
   menu.addSeparator();
   techniques_.fill(menu);
 }

@@ -49,7 +49,8 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
       options_(options),
       tools_(session, {.chosen = [this](Tool tool) { show_tool(tool); },
                        .refused = [this](const std::string& why) { tell_error(why); },
-                       .asked = [this](QPointF at) { show_scene_menu(at); }}),
+                       .asked = [this](QPointF at) { show_scene_menu(at); },
+                       .menu = [this](const session::MenuSpot& spot) { haptic_menu_.toggle(spot); }}),
       files_(session, settings, *this),
       edits_(session, {.begin = [this] { return finish_work(); },
                        .refused = [this](const std::string& why) { tell_error(why); },
@@ -67,7 +68,13 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
       pictures_(session,
                 {.begin = [this] { return finish_work(); },
                  .refused = [this](const std::string& why) { tell_error(why); }},
-                *this) {
+                *this),
+      haptic_menu_(session, settings,
+                   {.begin = [this] { return finish_work(); },
+                    .tell = [this](const Note& note) { tell(note); },
+                    .ask = [this](const interaction::Operation& it) { ask(it); }},
+                   *this) {
+  if (options_.menu) haptic_menu_.use(*options_.menu);
   setObjectName("icome");
   setWindowIcon(app_icon());
   setAcceptDrops(true);
@@ -211,6 +218,7 @@ void MainWindow::tick() {
     labelled_ = labelled;
     show_look();
   }
+  if (is_stale_) haptic_menu_.refresh();
   is_stale_ = false;
 }
 
@@ -356,6 +364,7 @@ void MainWindow::show_look() {
       wish.look.overlay.panels.push_back(std::move(*panel));
   }
   session_.view().set_look(wish);
+  session_.menu().set_theme(is_dark() ? session::ElementTheme::Dark : session::ElementTheme::Light);
 }
 
 /// Ends what the mouse is doing, and commits what is being typed. False: the text was refused.

@@ -7,6 +7,7 @@
 #include "session/session.h"
 #include "ui/actions/edit_actions.h"
 #include "ui/actions/file_actions.h"
+#include "ui/actions/menu_actions.h"
 #include "ui/actions/move_actions.h"
 #include "ui/actions/operation_actions.h"
 #include "ui/actions/picture_actions.h"
@@ -36,6 +37,7 @@ class MainWindow final : public QMainWindow {
   struct Options {
     Theme theme = Theme::System;
     DeviceWays devices = {};
+    std::optional<interaction::Element> menu = {};  // the haptic menu; none: as chosen before
   };
   MainWindow(session::Session& session, QSettings& settings, const Options& options);
   ~MainWindow() override;
@@ -96,6 +98,7 @@ class MainWindow final : public QMainWindow {
   TechniqueActions techniques_;
   MoveActions moves_;
   PictureActions pictures_;
+  MenuActions haptic_menu_;
   Banner* banner_ = nullptr;
   ShapeOptions* shaping_ = nullptr;  // shown with its tool
   SceneView* scene_ = nullptr;

@@ -355,9 +355,9 @@ TEST(OperationArguments, SelectedObjectsAreSharedOut) {
   const Operation single = made_of({parameters.front()});
   EXPECT_TRUE(asks_only_for_objects(single));
   EXPECT_FALSE(asks_only_for_objects(made_of(parameters)));
-  EXPECT_FALSE(selected_fields(single, {}));
-  EXPECT_FALSE(selected_fields(single, {one, two}));
-  EXPECT_EQ(json_from_value(*selected_fields(single, {two})), R"({"object":"#2"})");
+  EXPECT_FALSE(completed_fields(single, {}, {}));
+  EXPECT_FALSE(completed_fields(single, {}, {one, two}));
+  EXPECT_EQ(json_from_value(*completed_fields(single, {}, {two})), R"({"object":"#2"})");
 }
 
 TEST(OperationWords, TellWhatIsMeantOtherwise) {

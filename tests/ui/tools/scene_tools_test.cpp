@@ -375,12 +375,12 @@ TEST_F(PenTest, IsLiftedWhenTouchIsLeft) {
   EXPECT_TRUE(hand_until([&] { return !session().hands().pointer(0).touching; }));
 }
 
-TEST_F(PenTest, SpacePressesToo) {
+TEST_F(PenTest, EnterPressesToo) {
   tools_.choose(Tool::Touch);
   mouse(QEvent::MouseMove, face(right_));
-  key(QEvent::KeyPress, Qt::Key_Space);
+  key(QEvent::KeyPress, Qt::Key_Return);
   EXPECT_TRUE(hand_until([&] { return session().hands().pointer(0).touching; }));
-  key(QEvent::KeyRelease, Qt::Key_Space);
+  key(QEvent::KeyRelease, Qt::Key_Return);
   EXPECT_TRUE(hand_until([&] { return !session().hands().pointer(0).touching; }));
 }
 

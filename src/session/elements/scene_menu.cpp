@@ -1,0 +1,163 @@
+#include "session/elements/scene_menu.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "world/hasher.h"
+
+namespace icome::session {
+namespace {
+
+using interaction::Choice;
+using interaction::ElementPointer;
+using interaction::ElementUse;
+using interaction::LaidSheet;
+using interaction::Widget;
+
+constexpr double kResolution = 10'000.0;  // pixels a metre of the element: 40 for a capital of 4 mm
+constexpr double kMouseShare = 0.25;      // of the near distance, at which the mouse points
+
+void enable_widgets(std::vector<Widget>& widgets,
+                    const std::function<std::optional<bool>(const Widget&)>& is_enabled, bool& changed) {
+  for (Widget& widget : widgets) {
+    const bool now = is_enabled(widget).value_or(widget.enabled);
+    changed = std::exchange(widget.enabled, now) != now || changed;
+    enable_widgets(widget.widgets, is_enabled, changed);
+  }
+}
+
+void add_settings(const std::vector<Widget>& widgets, const ElementUse& use, world::Hasher& hasher) {
+  for (const Widget& widget : widgets) {
+    hasher.add(widget.enabled);
+    hasher.add(use.is_checked(widget));
+    hasher.add(use.value_of(widget));
+    add_settings(widget.widgets, use, hasher);
+  }
+}
+
+}  // namespace
+
+void SceneMenu::open(interaction::Element element, std::size_t language, interaction::TextMeasure measure,
+                     const interaction::ElementFrame& frame) {
+  close();
+  element_ = std::move(element);
+  use_.emplace(element_, language, std::move(measure));
+  use_->place(frame);
+  attended_ = element_.place == interaction::ElementPlace::Pointer;
+}
+
+void SceneMenu::close() {
+  // The sheets that fade are known by widgets of the element that goes.
+  sheets_.let_go();
+  use_.reset();
+  hand_.reset();
+}
+
+std::optional<MenuChoice> SceneMenu::told(const std::optional<Choice>& choice) const {
+  if (!choice) return std::nullopt;
+  return MenuChoice{*choice->widget, choice->by, use_->is_checked(*choice->widget),
+                    use_->value_of(*choice->widget)};
+}
+
+/// The hand that uses the menu after these ticks.
+std::optional<std::size_t> SceneMenu::nearest_hand(std::span<const MenuTick> ticks) const {
+  std::optional<std::size_t> nearest;
+  double least = element_.choosing.recede;
+  for (const MenuTick& tick : ticks) {
+    const double distance = use_->distance_to(tick.at.tip);
+    if (tick.hand == hand_ && distance <= element_.choosing.near) return hand_;
+    if (distance > least) continue;
+    least = distance;
+    nearest = tick.hand;
+  }
+  return nearest;
+}
+
+std::vector<MenuChoice> SceneMenu::take(std::span<const MenuTick> ticks, double now) {
+  std::vector<MenuChoice> chosen;
+  if (const auto hand = nearest_hand(ticks); hand != hand_) {
+    hand_ = hand;
+    use_->change_pointer();
+  }
+  if (hand_) attended_ = false;
+  for (const MenuTick& tick : ticks)
+    if (tick.hand == hand_)
+      if (auto choice = told(use_->point(tick.at))) chosen.push_back(std::move(*choice));
+  if (!hand_) use_->rest(now, attended_);
+  return chosen;
+}
+
+std::optional<base::Vector3> SceneMenu::met_by(const interaction::Ray& way) const {
+  const interaction::ElementFrame& frame = use_->frame();
+  const double along = way.direction.dot(frame.normal());
+  if (!(std::abs(along) > 1e-9)) return std::nullopt;
+  const double distance = (frame.centre - way.origin).dot(frame.normal()) / along;
+  if (!(distance > 0.0)) return std::nullopt;
+  const base::Vector3 place = way.origin + distance * way.direction;
+  const base::Vector2 on_plane = frame.projected(place);
+  const bool is_on_sheet = std::ranges::any_of(use_->layout().sheets, [&](const LaidSheet& sheet) {
+    return ((on_plane - sheet.centre).cwiseAbs().array() <= sheet.half.array()).all();
+  });
+  return is_on_sheet ? std::optional(place) : std::nullopt;
+}
+
+std::optional<MenuChoice> SceneMenu::point_by_mouse(const interaction::Ray& way, bool button, double now) {
+  const auto met = met_by(way);
+  if (!met) return std::nullopt;
+  const interaction::ElementFrame& frame = use_->frame();
+  if (!std::exchange(attended_, true)) use_->change_pointer();
+  hand_.reset();
+  const double before = kMouseShare * element_.choosing.near * frame.size;
+  return told(use_->point({now, *met + before * frame.normal(), button}));
+}
+
+std::optional<MenuChoice> SceneMenu::press(interaction::ElementKey key) {
+  attended_ = true;
+  return told(use_->press(key));
+}
+
+std::optional<MenuChoice> SceneMenu::choose(std::string_view name_or_text) {
+  return told(use_->choose(name_or_text));
+}
+
+void SceneMenu::enable(const std::function<std::optional<bool>(const Widget&)>& is_enabled) {
+  bool changed = false;
+  enable_widgets(element_.widgets, is_enabled, changed);
+  if (changed) sheets_.outdate();
+}
+
+/// A number for all that the pictures of the sheets show.
+std::uint64_t SceneMenu::looks(ElementTheme theme) const {
+  world::Hasher hasher;
+  hasher.add(theme);
+  for (const Widget* const open : use_->open()) hasher.add(std::string_view(open->name));
+  hasher.add(use_->lit() ? std::string_view(use_->lit()->name) : std::string_view());
+  add_settings(element_.widgets, *use_, hasher);
+  return hasher.value();
+}
+
+bool SceneMenu::draw(ElementTheme theme) {
+  if (!use_) {
+    drawn_ = 0;
+    const bool had_panels = !panels_.empty();
+    panels_.clear();
+    return had_panels;
+  }
+  const std::uint64_t now = looks(theme);
+  if (std::exchange(drawn_, now) != now) {
+    panels_ = panels_of(*use_, theme, kResolution);
+    return true;
+  }
+  bool changed = false;
+  for (std::size_t i = 0; i < panels_.size(); ++i) {
+    render::SceneOverlay::Panel moved = panels_[i];
+    place_panel(*use_, i, moved);
+    changed = changed || moved.alpha != panels_[i].alpha || moved.at != panels_[i].at ||
+              moved.lying != panels_[i].lying;
+    panels_[i] = std::move(moved);
+  }
+  return changed;
+}
+
+}  // namespace icome::session

@@ -1,0 +1,81 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "interaction/elements/element_use.h"
+#include "interaction/navigation.h"
+#include "session/elements/element_picture.h"
+#include "session/elements/felt_sheets.h"
+
+namespace icome::session {
+
+/// Something that was chosen from a menu in the scene, with its new setting.
+struct MenuChoice {
+  interaction::Widget widget;
+  interaction::ChosenBy by = interaction::ChosenBy::Click;
+  bool checked = false;  // of Check and Radio
+  double value = 0.0;    // of Slider
+};
+
+/// A hand at one moment, in the frame of the stage.
+struct MenuTick {
+  std::size_t hand = 0;
+  interaction::ElementPointer at;
+};
+
+/// A haptic element that is open in a scene: what hands, mouse and keys do to it, what is felt of it, and its
+/// picture. One thread (main) uses it; it knows no clock. Times are in seconds, and never fall.
+class SceneMenu {
+ public:
+  /// The effects of its sheets have ids from this one on, which no object has.
+  static constexpr std::uint64_t kFirstSheet = std::uint64_t(1) << 62;
+
+  /// Opens the element in one of its languages; what was open is closed.
+  void open(interaction::Element element, std::size_t language, interaction::TextMeasure measure,
+            const interaction::ElementFrame& frame);
+  void close();
+  /// The open element; null: none is.
+  const interaction::ElementUse* use() const { return use_ ? &*use_ : nullptr; }
+
+  // The following only while it is open.
+  void place(const interaction::ElementFrame& frame) { use_->place(frame); }
+  /// Takes the hands' ticks since the last call, in order, and lets time pass. The hand that is near uses the
+  /// menu, as long as it stays near.
+  std::vector<MenuChoice> take(std::span<const MenuTick> ticks, double now);
+  /// The mouse points along that way: it counts as a pointer close to the plane. Nothing is chosen while its
+  /// way meets no sheet; see met_by().
+  std::optional<MenuChoice> point_by_mouse(const interaction::Ray& way, bool button, double now);
+  /// The place where a way meets a sheet, stage frame; nothing: it meets none.
+  std::optional<base::Vector3> met_by(const interaction::Ray& way) const;
+  std::optional<MenuChoice> press(interaction::ElementKey key);
+  std::optional<MenuChoice> choose(std::string_view name_or_text);
+  /// Enables the widgets of the names in question, or not; others stay as they are.
+  void enable(const std::function<std::optional<bool>(const interaction::Widget&)>& is_enabled);
+  /// The hand that uses it; none: none does.
+  std::optional<std::size_t> hand() const { return hand_; }
+
+  /// FeltSheets::follow(); also after close(), until all has faded.
+  bool follow(double now) { return sheets_.follow(use(), now); }
+  const std::vector<haptics::PlacedEffect>& effects() const { return sheets_.effects(); }
+  /// Draws what has changed; true: panels() are others now.
+  bool draw(ElementTheme theme);
+  const std::vector<render::SceneOverlay::Panel>& panels() const { return panels_; }
+
+ private:
+  std::uint64_t looks(ElementTheme theme) const;
+  std::optional<std::size_t> nearest_hand(std::span<const MenuTick> ticks) const;
+  std::optional<MenuChoice> told(const std::optional<interaction::Choice>& choice) const;
+
+  interaction::Element element_;
+  std::optional<interaction::ElementUse> use_;  // refers to element_
+  FeltSheets sheets_{kFirstSheet};
+  std::vector<render::SceneOverlay::Panel> panels_;
+  std::uint64_t drawn_ = 0;  // looks() of the pictures
+  std::optional<std::size_t> hand_ = {};
+  bool attended_ = false;  // by mouse or keys
+};
+
+}  // namespace icome::session

@@ -1,0 +1,138 @@
+#include "ui/actions/menu_actions.h"
+
+#include <fmt/format.h>
+
+#include <QFileDialog>
+#include <QLocale>
+#include <utility>
+
+#include "interaction/elements/element_file.h"
+#include "ui/actions/actions.h"
+#include "ui/actions/desktop_menu.h"
+#include "ui/actions/recent_files.h"
+#include "ui/forms/operation_arguments.h"
+
+namespace icome::ui {
+namespace {
+
+using interaction::Element;
+using interaction::Widget;
+using interaction::WidgetKind;
+
+constexpr const char* kMenuFileKey = "menu/file";  // empty: the window's own
+constexpr const char* kMenuTopic = "menu";
+
+}  // namespace
+
+MenuActions::MenuActions(session::Session& session, QSettings& settings, Hooks hooks, QWidget& window)
+    : session_(session), settings_(settings), hooks_(std::move(hooks)), window_(window) {
+  session_.menu().on_choice([this](const session::MenuChoice& choice) { hear(choice); });
+  session_.on_selection([this] { refresh(); });
+}
+
+void MenuActions::fill(QMenu& menu) {
+  QAction* open = add_action(menu, "tool.menu", "Haptic &Menu\tSpace", {}, [this] { toggle({}); });
+  open->setStatusTip(
+      "Opens the menu that lies in the scene, for hands, mouse and keys; Space or Esc closes it");
+  add_action(menu, "tool.menu_file", "Haptic Menu &From File\u2026", {}, [this] { choose_file(); });
+  add_action(menu, "tool.menu_usual", "&Usual Haptic Menu", {}, [this] {
+    own_.reset();
+    settings_.remove(kMenuFileKey);
+    session_.menu().close();
+  });
+}
+
+void MenuActions::choose_file() {
+  auto* dialog = new QFileDialog(&window_, "Haptic Menu From File");
+  dialog->setObjectName("menu_file");
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  dialog->setNameFilter("Haptic menus (*.toml)");
+  QObject::connect(dialog, &QFileDialog::fileSelected, dialog,
+                   [this](const QString& file) { choose(path_of(file)); });
+  dialog->open();
+}
+
+void MenuActions::choose(const std::filesystem::path& file) {
+  auto read = interaction::read_element_file(file);
+  if (!read)
+    return hooks_.tell({.weight = Note::Weight::Error, .text = read.error().message, .topic = kMenuTopic});
+  own_.reset();
+  settings_.setValue(kMenuFileKey, QString::fromStdString(file.string()));
+  session_.menu().close();
+  toggle({});
+}
+
+base::Result<Element> MenuActions::element() const {
+  if (own_) return *own_;
+  const std::filesystem::path file = path_of(settings_.value(kMenuFileKey).toString());
+  if (!file.empty()) return interaction::read_element_file(file);
+  return interaction::read_element(kDesktopMenu, "the usual haptic menu");
+}
+
+QAction* MenuActions::command_of(const Widget& widget) const {
+  return widget.command.empty() ? nullptr
+                                : window_.findChild<QAction*>(QString::fromStdString(widget.command));
+}
+
+/// Items without anything to do are as their file says.
+std::optional<bool> MenuActions::is_possible(const Widget& widget) const {
+  if (!widget.command.empty()) {
+    const QAction* const command = command_of(widget);
+    return command != nullptr && command->isEnabled();
+  }
+  if (widget.operation.empty()) return std::nullopt;
+  const auto operation = interaction::find_operation(widget.operation);
+  return operation && completed_fields(**operation, widget.with, session_.selection()).has_value();
+}
+
+/// Items are ticked as the commands are that they do.
+void MenuActions::take_ticks_over(std::vector<Widget>& widgets) const {
+  for (Widget& widget : widgets) {
+    if (const QAction* const command = command_of(widget); command && command->isCheckable())
+      widget.checked = command->isChecked();
+    take_ticks_over(widget.widgets);
+  }
+}
+
+void MenuActions::toggle(const session::MenuSpot& spot) {
+  if (session_.menu().use() != nullptr) return session_.menu().close();
+  auto made = element();
+  if (made) {
+    pops_up_ = made->place == interaction::ElementPlace::Pointer;
+    take_ticks_over(made->widgets);
+    const std::string language = QLocale::system().name().section('_', 0, 0).toStdString();
+    if (const auto opened = session_.menu().open(std::move(*made), language, spot); !opened)
+      made = tl::unexpected(opened.error());
+  }
+  if (!made)
+    return hooks_.tell({.weight = Note::Weight::Error, .text = made.error().message, .topic = kMenuTopic});
+  refresh();
+}
+
+void MenuActions::refresh() {
+  session_.menu().enable([this](const Widget& widget) { return is_possible(widget); });
+}
+
+void MenuActions::hear(const session::MenuChoice& choice) {
+  if (pops_up_ && choice.widget.widgets.empty() && choice.widget.kind == WidgetKind::Item)
+    session_.menu().close();
+  perform(choice.widget);
+  refresh();
+}
+
+void MenuActions::perform(const Widget& widget) {
+  if (QAction* const command = command_of(widget)) return command->trigger();
+  if (widget.operation.empty()) return;
+  const auto operation = interaction::find_operation(widget.operation);
+  if (!operation) return;
+  const auto fields = completed_fields(**operation, widget.with, session_.selection());
+  if (!fields) return hooks_.ask(**operation);
+  if (!hooks_.begin()) return;
+  const auto done = perform_operation(session_, **operation, *fields);
+  if (!done)
+    return hooks_.tell({.weight = Note::Weight::Error, .text = done.error().message, .topic = "edit"});
+  if (!done->empty()) hooks_.tell({.text = *done, .topic = "edit"});
+}
+
+}  // namespace icome::ui

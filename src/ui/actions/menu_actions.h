@@ -1,0 +1,56 @@
+#pragma once
+#include <QMenu>
+#include <QSettings>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "interaction/operations/operation.h"
+#include "session/session.h"
+#include "ui/window/note.h"
+
+namespace icome::ui {
+
+/// The haptic menu of the window: which one it is, opening it, and doing what is chosen from it. Its items do
+/// operations on what is selected, or commands of the window by the names of their actions. Session, settings
+/// and window outlive it.
+class MenuActions {
+ public:
+  struct Hooks {
+    std::function<bool()> begin;            // asked before the world is edited; false: do not
+    std::function<void(const Note&)> tell;  // shows a note
+    std::function<void(const interaction::Operation&)> ask;  // shows the form of an operation
+  };
+  MenuActions(session::Session& session, QSettings& settings, Hooks hooks, QWidget& window);
+  MenuActions(const MenuActions&) = delete;
+  MenuActions& operator=(const MenuActions&) = delete;
+
+  /// Adds the entries to the menu of tools.
+  void fill(QMenu& menu);
+  /// Uses this menu instead of the one that was chosen before, as long as the program runs.
+  void use(interaction::Element element) { own_ = std::move(element); }
+  /// Opens the menu there; the one that is open closes instead.
+  void toggle(const session::MenuSpot& spot);
+  /// Uses the menu of a file from now on; tells where that does not work.
+  void choose(const std::filesystem::path& file);
+  /// Enables the items of the open menu that can be done now. Call it where that may have changed.
+  void refresh();
+
+ private:
+  base::Result<interaction::Element> element() const;
+  std::optional<bool> is_possible(const interaction::Widget& widget) const;
+  void take_ticks_over(std::vector<interaction::Widget>& widgets) const;
+  void choose_file();
+  void hear(const session::MenuChoice& choice);
+  void perform(const interaction::Widget& widget);
+  QAction* command_of(const interaction::Widget& widget) const;
+
+  session::Session& session_;
+  QSettings& settings_;
+  Hooks hooks_;
+  QWidget& window_;
+  std::optional<interaction::Element> own_;
+  bool pops_up_ = false;  // the open one
+};
+
+}  // namespace icome::ui

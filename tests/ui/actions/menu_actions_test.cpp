@@ -1,0 +1,192 @@
+// The haptic menu of the window, as people use it: by keys, by the mouse, and by a hand that pushes.
+#include "ui/actions/menu_actions.h"
+
+#include <QFile>
+#include <QKeyEvent>
+#include <cmath>
+
+#include "ui/window_test.h"
+#include "world/shape/mesh_geometry.h"
+#include "world/shape/solid_geometry.h"
+
+namespace icome::ui {
+namespace {
+
+using base::Vector3;
+using world::ObjectId;
+
+class MenuActionsTest : public WindowTest {
+ protected:
+  void key(int key) {
+    for (const auto type : {QEvent::KeyPress, QEvent::KeyRelease}) {
+      QKeyEvent event(type, key, Qt::NoModifier);
+      QCoreApplication::sendEvent(&mouse_.window(), &event);
+    }
+  }
+  bool is_open() { return session().menu().use() != nullptr; }
+  /// Where a widget of the open menu is in the scene's window.
+  QPointF pixel(const char* name) {
+    const auto& use = *session().menu().use();
+    for (const interaction::LaidWidget& it : use.layout().widgets) {
+      if (it.widget->name != name) continue;
+      const interaction::View& view = session().view().now();
+      const Vector3 seen = view.world_from_eye.inverse() * use.frame().in_world(it.centre);
+      const QSizeF size = mouse_.size();
+      const double scale =
+          0.5 * std::min(size.width(), size.height()) / (std::tan(0.5 * view.field) * -seen.z());
+      return {0.5 * size.width() + scale * seen.x(), 0.5 * size.height() - scale * seen.y()};
+    }
+    ADD_FAILURE() << name << " is not to be seen";
+    return {};
+  }
+  void click(const char* name) {
+    const QPointF at = pixel(name);
+    mouse_.move(at);
+    mouse_.press(at);
+    mouse_.release(at);
+  }
+  ObjectId add_box() {
+    const auto shape = session().ids().next<world::GeometryId>();
+    const auto id = session().ids().next<ObjectId>();
+    const auto box = std::make_shared<world::PrimitiveGeometry>(geometry::Box{Vector3::Constant(0.05)});
+    perform(world::EditGroup{
+        {world::CreateGeometry{shape, box}, world::CreateObject{id, 0, {.name = "box", .geometry = shape}}}});
+    return id;
+  }
+  std::optional<world::Colour> colour_of(ObjectId id) {
+    const auto material = world().find(id)->material;
+    return material == world::MaterialId{} ? std::nullopt : std::optional(world().find(material)->diffuse);
+  }
+  bool enabled(const char* name) {
+    return interaction::find_widget(session().menu().use()->element().widgets, name)->enabled;
+  }
+
+  SceneMouse mouse_;
+};
+
+TEST_F(MenuActionsTest, SpaceOpensItAndKeysChoose) {
+  key(Qt::Key_Space);
+  ASSERT_TRUE(is_open());
+  EXPECT_FALSE(enabled("Undo"));
+  EXPECT_FALSE(enabled("Red")) << "nothing is selected";
+  key(Qt::Key_Down);
+  EXPECT_EQ(session().menu().use()->lit()->name, "New");
+  key(Qt::Key_Right);
+  EXPECT_EQ(session().menu().use()->lit()->name, "Box");
+  key(Qt::Key_Down);
+  key(Qt::Key_Return);
+  EXPECT_TRUE(until([&] { return world().roots().size() == 1; }));
+  EXPECT_EQ(world().find(world().roots().front())->name, "sphere");
+  EXPECT_EQ(session().selection(), world().roots());
+  EXPECT_FALSE(is_open()) << "a menu that popped up goes when something was chosen";
+  key(Qt::Key_Space);
+  EXPECT_TRUE(until([&] { return enabled("Undo"); }));
+  EXPECT_TRUE(enabled("Red"));
+  key(Qt::Key_Space);
+  EXPECT_FALSE(is_open());
+  key(Qt::Key_Space);
+  key(Qt::Key_Down);
+  key(Qt::Key_Right);
+  key(Qt::Key_Escape);
+  EXPECT_TRUE(is_open()) << "only the menu in it has closed";
+  key(Qt::Key_Escape);
+  EXPECT_FALSE(is_open());
+}
+
+TEST_F(MenuActionsTest, TheMouseColoursWhatIsSelectedAndTakesItBack) {
+  const ObjectId box = add_box();
+  session().select({box});
+  mouse_.move({300.0, 200.0});
+  key(Qt::Key_Space);
+  ASSERT_TRUE(is_open());
+  ASSERT_TRUE(until([&] { return session().menu().use()->opacity() > 0.99; }));
+  click("Colour");
+  ASSERT_TRUE(until([&] { return session().menu().use()->open().size() == 1; }));
+  click("Blue");
+  ASSERT_TRUE(until([&] { return colour_of(box).has_value(); }));
+  const auto blue = *colour_of(box);
+  EXPECT_GT(blue[2], blue[0]);
+  EXPECT_EQ(session().selection(), std::vector{box}) << "the click was the menu's";
+  key(Qt::Key_Space);
+  ASSERT_TRUE(until([&] { return enabled("Undo"); }));
+  click("Undo");
+  EXPECT_TRUE(until([&] { return !colour_of(box).has_value(); }));
+}
+
+TEST_F(MenuActionsTest, AHandThatPushesChoosesTheSame) {
+  const ObjectId box = add_box();
+  session().select({box});
+  action("tool.touch")->trigger();
+  mouse_.move({300.0, 200.0});
+  key(Qt::Key_Space);
+  ASSERT_TRUE(is_open());
+  for (const char* const name : {"Colour", "Green"}) {
+    ASSERT_TRUE(until([&] {
+      mouse_.move(pixel(name));  // the window may have been laid out anew
+      const auto* const lit = session().menu().use()->lit();
+      return lit != nullptr && lit->name == name;
+    }));
+    mouse_.press(pixel(name));
+    const bool is_menu = std::string_view(name) == "Colour";
+    ASSERT_TRUE(until([&] { return is_menu ? session().menu().use()->open().size() == 1 : !is_open(); }))
+        << name;
+    mouse_.release({});
+    ASSERT_TRUE(until([&] { return session().hands().pointer(0).force.norm() < 2.0; }));
+  }
+  EXPECT_TRUE(until([&] { return colour_of(box).has_value(); }));
+  EXPECT_FALSE(is_open());
+  EXPECT_EQ(world_from_object(world(), box).translation(), Vector3::Zero().eval()) << "it was not dragged";
+}
+
+TEST_F(MenuActionsTest, TicksAreThoseOfTheCommands) {
+  key(Qt::Key_Space);
+  const auto& use = *session().menu().use();
+  const auto& widgets = use.element().widgets;
+  EXPECT_TRUE(use.is_checked(*interaction::find_widget(widgets, "Select")));
+  EXPECT_TRUE(session().menu().choose("Touch"));
+  EXPECT_TRUE(until([&] { return action("tool.touch")->isChecked(); }));
+  EXPECT_TRUE(is_open()) << "a choice of several is not over with one";
+}
+
+TEST_F(MenuActionsTest, AMenuOfAFileIsUsedAndAWrongOneTold) {
+  QFile good(file("mine.toml")), bad(file("bad.toml"));
+  ASSERT_TRUE(good.open(QIODevice::WriteOnly) && bad.open(QIODevice::WriteOnly));
+  good.write(
+      "at = \"head\"\ncentre = [-0.1, 0, 0]\n[[item]]\nname = \"Whole\"\ncommand = \"view.home\"\n"
+      "[[item]]\nname = \"Nonsense\"\ncommand = \"no.such\"\n");
+  bad.write("[[item]]\nnam = 1\n");
+  good.close();
+  bad.close();
+  QSettings settings(file("menu.conf"), QSettings::IniFormat);
+  std::vector<Note> told;
+  MenuActions actions(session(), settings,
+                      {.begin = [] { return true; },
+                       .tell = [&](const Note& note) { told.push_back(note); },
+                       .ask = [](const interaction::Operation&) {}},
+                      *window_);
+  actions.choose(bad.fileName().toStdString());
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told.front().text.find("bad.toml:2"), std::string::npos) << told.front().text;
+  EXPECT_FALSE(is_open());
+  actions.choose(good.fileName().toStdString());
+  ASSERT_TRUE(is_open());
+  EXPECT_TRUE(enabled("Whole"));
+  EXPECT_FALSE(enabled("Nonsense"));
+  // It stays to the left of where one looks.
+  const auto beside = [&] {
+    const interaction::View& view = session().view().now();
+    return Vector3(view.world_from_eye.inverse() * session().menu().use()->frame().centre).x();
+  };
+  EXPECT_LT(beside(), 0.0);
+  const double before = beside();
+  interaction::View turned = session().view().now();
+  turned.world_from_eye = Eigen::AngleAxisd(1.0, Vector3::UnitY()) * turned.world_from_eye;
+  session().view().set(turned);
+  session().update();
+  EXPECT_NEAR(beside(), before, 1e-9);
+  EXPECT_EQ(settings.value("menu/file").toString(), good.fileName());
+  session().menu().close();
+}
+
+}  // namespace
+}  // namespace icome::ui
