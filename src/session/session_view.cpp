@@ -223,7 +223,11 @@ double SessionView::aspect() const { return parts_.aspect; }
 
 interaction::NavigationMode SessionView::navigation_mode() const { return parts_.user.mode(); }
 
+const interaction::View& SessionView::drawn_view() const { return parts_.user.drawn_view(); }
+
 bool SessionView::has_head() const { return parts_.user.has_head(); }
+
+void SessionView::follow_head(bool follows) { parts_.user.follow_head(follows); }
 
 void SessionView::recentre_head() { parts_.user.recentre_head(); }
 

@@ -26,10 +26,14 @@ class SessionView {
   double aspect() const;
   interaction::NavigationMode navigation_mode() const;
   void set_navigation_mode(interaction::NavigationMode mode);
+  /// The view that is drawn: now(), as the head sees it.
+  const interaction::View& drawn_view() const;
   /// Is there a device for the user's head?
   bool has_head() const;
   /// From now on the user looks straight ahead where the head is now.
   void recentre_head();
+  /// UserInteraction::follow_head().
+  void follow_head(bool follows);
   /// Sets the look of the world as main wants it; view and selection are put in by the session.
   void set_look(const DisplayWish& look);
   /// The scene on the stage, as main saw it last; never null.

@@ -122,8 +122,9 @@ class StudyRunTest(ProgramTest):
 
     def test_what_cannot_be_run_says_why(self):
         head = self.study("head", template="head-tracking")
-        self.fails("study", "run", head, code=1, saying="head-tracking")
-        self.fails("study", "run", head, code=1, saying="--pointer-only")
+        for words in ("head-tracking", "--head", "--pointer-only"):
+            self.fails("study", "run", head, code=1, saying=words)
+        self.fails("study", "run", self.study("menus", template="menu"), code=1, saying="haptic-menu")
         bare = self.study("bare", lambda text: text.replace('target = "target"', 'target = "goal"'))
         self.fails("study", "run", bare, "--simulate", 1, code=1, saying="'goal'")
         (self.folder / "scenes" / "pointing-room.wrl").unlink()

@@ -161,7 +161,7 @@ bool gives_forces(const study::Study& study) {
 
 std::string apparatus_of_simulation(const study::Study& study) {
   std::vector<std::string> missing;
-  for (const study::UnmetNeed& need : study::unmet_needs(study))
+  for (const study::UnmetNeed& need : study::needs_not_simulated(study))
     if (std::ranges::find(missing, need.what) == missing.end()) missing.push_back(need.what);
   std::string text = "There was no device: ICOME moved a simulated hand";
   if (gives_forces(study)) text += ", with forces computed at 1 kHz that nobody felt";

@@ -34,10 +34,10 @@ std::vector<study::TrialScene> scenes_of_trials(const study::Study& study) {
   return scenes;
 }
 
-/// The study without the parts that need what the program lacks so far.
+/// The study without the parts that need more than a pointer.
 base::Result<study::Study> pointer_alone(const study::Study& study) {
   std::vector<std::string> needs;
-  for (const study::UnmetNeed& need : study::unmet_needs(study))
+  for (const study::UnmetNeed& need : study::needs_not_simulated(study))
     if (std::ranges::find(needs, need.id) == needs.end()) needs.push_back(need.id);
   return study::without_needs(study, needs);
 }
@@ -59,6 +59,13 @@ base::Result<OpenedStudy> study_to_run(const StudyOptions& options) {
   // Reasons begin with unmet needs, and simulated people need no devices.
   for (std::size_t i = options.simulate > 0 ? unmet.size() : 0; i < check.reasons.size(); ++i)
     why += fmt::format(" {}", check.reasons[i].sentence);
+  const bool lacks_head =
+      options.simulate == 0 && options.devices.head.empty() && study::needs(opened->study, "head-tracking");
+  if (why.empty() && lacks_head)
+    return base::fail(fmt::format(
+        "{} needs head-tracking: name the tracker with --head (icome devices lists them), or leave "
+        "what needs it out with --pointer-only; --simulate needs no devices.",
+        name));
   if (why.empty()) return opened;
   if (!unmet.empty() && options.simulate == 0)
     why += " With --pointer-only what needs these is left out; --simulate needs no devices.";

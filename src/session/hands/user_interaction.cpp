@@ -202,7 +202,7 @@ void UserInteraction::place() {
       interaction::looked_at(view_) + view_.distance * (heading.linear() * hand_offset_);
   drawn_ = view_;
   if (!head_) return;
-  Pose eye_from_head = rest_from_head_;
+  Pose eye_from_head = follows_head_ ? rest_from_head_ : Pose::Identity();
   eye_from_head.translation() *= view_.distance / kScreenDistance;
   drawn_.world_from_eye = view_.world_from_eye * eye_from_head;
   drawn_ = interaction::usable(drawn_);

@@ -45,6 +45,8 @@ class UserInteraction {
   bool has_head() const { return head_ != nullptr; }
   /// How far the eye goes along with the head (thesis 5.7.1); nothing: as far as the head does.
   void set_head_transfer(const std::optional<interaction::HeadTransfer>& transfer);
+  /// Does the eye go along with the head from now on? Else it is where the view has it, at once.
+  void follow_head(bool follows) { follows_head_ = follows; }
   /// From now on the eye is at the view's place where the head is now.
   void recentre_head();
 
@@ -100,6 +102,7 @@ class UserInteraction {
   bool carried_ = false;  // since the last update
   interaction::HeadMotion head_motion_;
   bool head_is_transferred_ = true;
+  bool follows_head_ = true;
   base::Pose rest_from_head_ = base::Pose::Identity();  // as the eye goes along with it
   base::Pose stage_from_device_ = base::Pose::Identity();
 };

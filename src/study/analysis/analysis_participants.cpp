@@ -86,7 +86,7 @@ std::size_t unpractised(const StudyData& data) {
 /// makes in the study did not exist for them.
 void tell_what_was_not_there(const Study& study, std::vector<std::string>& warnings) {
   std::vector<std::string> told;
-  const std::vector<UnmetNeed> unmet = unmet_needs(study);
+  const std::vector<UnmetNeed> unmet = needs_not_simulated(study);
   for (const UnmetNeed& need : unmet) {
     if (std::ranges::find(told, need.id) != told.end()) continue;
     told.push_back(need.id);

@@ -10,12 +10,12 @@ namespace {
 
 // A row becomes available when the program can do it in a trial.
 constexpr std::array kCapabilities = {
-    Capability{"pointer", "a device that points in three dimensions, or the simulated hand", true},
-    Capability{"force-feedback", "a device that gives forces, or the simulated hand", true},
-    Capability{"head-tracking", "a device that tells where the head is", false},
-    Capability{"haptic-menu", "menus in the scene that are clicked or pushed", false},
-    Capability{"stereo", "a picture for each eye", false},
-    Capability{"speech", "commands that are spoken", false},
+    Capability{"pointer", "a device that points in three dimensions, or the simulated hand", true, true},
+    Capability{"force-feedback", "a device that gives forces, or the simulated hand", true, true},
+    Capability{"head-tracking", "a device that tells where the head is", true, false},
+    Capability{"haptic-menu", "menus in the scene that are clicked or pushed", false, false},
+    Capability{"stereo", "a picture for each eye", false, false},
+    Capability{"speech", "commands that are spoken", false, false},
 };
 
 constexpr std::array<std::string_view, 5> kQuantities = {"time", "approach-time", "homing-time", "distance",
@@ -32,13 +32,25 @@ void leave_out(std::vector<Part>& parts, const std::vector<std::string>& needs) 
 }
 
 void add_unmet(const std::vector<std::string>& needs, const std::string& of, Place place,
-               std::vector<UnmetNeed>& unmet) {
+               bool Capability::*is_met, std::vector<UnmetNeed>& unmet) {
   for (const std::string& need : needs) {
     const auto found = std::ranges::find(kCapabilities, need, &Capability::id);
-    if (found != kCapabilities.end() && found->available) continue;
+    if (found != kCapabilities.end() && *found.*is_met) continue;
     const std::string_view what = found == kCapabilities.end() ? "what nobody knows" : found->what;
     unmet.push_back({need, std::string(what), of, place});
   }
+}
+
+std::vector<UnmetNeed> needs_unmet_by(const Study& study, bool Capability::*is_met) {
+  std::vector<UnmetNeed> unmet;
+  add_unmet(study.needs, "the study", study.needs_place, is_met, unmet);
+  for (const IndependentVariable& factor : study.independent)
+    for (const Level& level : factor.levels)
+      add_unmet(level.needs, std::string("level '").append(level.id).append("' of '") + factor.id + "'",
+                level.place, is_met, unmet);
+  for (const TrialScene& scene : study.trials.scenes)
+    add_unmet(scene.needs, std::string("scene '").append(scene.id).append("'"), scene.place, is_met, unmet);
+  return unmet;
 }
 
 }  // namespace
@@ -48,15 +60,23 @@ std::span<const Capability> capabilities() { return kCapabilities; }
 std::span<const std::string_view> measured_quantities() { return kQuantities; }
 
 std::vector<UnmetNeed> unmet_needs(const Study& study) {
-  std::vector<UnmetNeed> unmet;
-  add_unmet(study.needs, "the study", study.needs_place, unmet);
-  for (const IndependentVariable& factor : study.independent)
-    for (const Level& level : factor.levels)
-      add_unmet(level.needs, std::string("level '").append(level.id).append("' of '") + factor.id + "'",
-                level.place, unmet);
-  for (const TrialScene& scene : study.trials.scenes)
-    add_unmet(scene.needs, std::string("scene '").append(scene.id).append("'"), scene.place, unmet);
-  return unmet;
+  return needs_unmet_by(study, &Capability::available);
+}
+
+std::vector<UnmetNeed> needs_not_simulated(const Study& study) {
+  return needs_unmet_by(study, &Capability::simulated);
+}
+
+bool needs(const Study& study, std::string_view need) {
+  const auto has = [&](const std::vector<std::string>& all) {
+    return std::ranges::find(all, need) != all.end();
+  };
+  return has(study.needs) ||
+         std::ranges::any_of(study.independent,
+                             [&](const IndependentVariable& factor) {
+                               return std::ranges::any_of(factor.levels, has, &Level::needs);
+                             }) ||
+         std::ranges::any_of(study.trials.scenes, has, &TrialScene::needs);
 }
 
 base::Result<Study> without_needs(const Study& study, const std::vector<std::string>& needs) {

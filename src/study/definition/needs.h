@@ -14,6 +14,7 @@ struct Capability {
   std::string_view id;
   std::string_view what;  // "a tracker of the head"
   bool available;         // in this program
+  bool simulated;         // for simulated people
 };
 
 /// All capabilities that a study may name.
@@ -27,8 +28,13 @@ struct UnmetNeed {
   Place place;
 };
 
-/// The needs of the study, of its levels and of its scenes, in this order, that are not met.
+/// The needs of the study, of its levels and of its scenes, in this order, that this program does not meet.
 std::vector<UnmetNeed> unmet_needs(const Study& study);
+/// Those that are not met for simulated people.
+std::vector<UnmetNeed> needs_not_simulated(const Study& study);
+
+/// Does the study need that in some part?
+bool needs(const Study& study, std::string_view need);
 
 /// The study without these needs and without the levels and scenes that have them: the rest can be run
 /// where they cannot be met, such as with the pointer alone. Its hash is different, so that its data are

@@ -39,6 +39,7 @@ std::optional<Task> read_task(KeyReader& keys, const std::vector<std::string>& l
   task.shown = part.strings("shown");
   task.choosing = read_choosing(part, task.choosing);
   task.forces = part.flag("forces", task.forces);
+  task.head = part.flag("head", task.head);
   task.start = read_start(part).value_or(task.start);
   task.near = part.number("near", task.near, kSmallestDistance, kLargestDistance);
   task.depth = part.number("depth", task.depth, kSmallestDistance, kLargestDistance);

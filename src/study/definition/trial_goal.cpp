@@ -47,6 +47,7 @@ void apply_levels(const Study& study, bool between, std::size_t crossing, TrialG
     const Level& level = factors[i]->levels[levels[i]];
     goal.choosing = level.choosing.value_or(goal.choosing);
     goal.forces = level.forces.value_or(goal.forces);
+    goal.head = level.head.value_or(goal.head);
   }
 }
 
@@ -128,6 +129,7 @@ base::Result<TrialGoal> trial_goal(const Study& study, const Participant& partic
   TrialGoal goal;
   goal.choosing = task.choosing;
   goal.forces = task.forces;
+  goal.head = task.head;
   goal.start = scene != nullptr && scene->start ? *scene->start : task.start;
   goal.near = task.near;
   goal.depth = task.depth;

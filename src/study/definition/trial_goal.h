@@ -23,6 +23,7 @@ struct TrialGoal {
   std::vector<Thing> things;
   Choosing choosing = Choosing::Touch;
   bool forces = true;
+  bool head = true;
   base::Vector3 start = base::Vector3::Zero();  // m, stage frame
   double near = 0.01;                           // m; see Task
   double depth = 0.002;                         // m

@@ -64,6 +64,7 @@ std::vector<Level> read_factor_levels(KeyReader& keys) {
   return read_levels_with(keys, "levels", "level", [](KeyReader& level_keys, Level& level) {
     if (level_keys.has("select")) level.choosing = read_choosing(level_keys, Choosing::Touch);
     if (level_keys.has("forces")) level.forces = level_keys.flag("forces", true);
+    if (level_keys.has("head")) level.head = level_keys.flag("head", true);
   });
 }
 

@@ -89,6 +89,7 @@ void TrialStage::begin(const TrialPlan& plan) {
 void TrialStage::stop() {
   parts_->leave();
   parts_->bring_back();
+  parts_->session.view().follow_head(true);
   parts_->state = State::Idle;
 }
 
@@ -149,6 +150,7 @@ void TrialStage::Parts::begin_seeking() {
   all.extend(goal->start);
   session.view().set(interaction::fitted(session.view().now(), all, kTowardEye, base::Vector3::UnitY(),
                                          session.view().aspect()));
+  session.view().follow_head(goal->head);
   watch.emplace(std::move(*goal));
   session.hands().take_trace();  // the rest of another trial
   lost_before = session.hands().take_trace().lost;
@@ -227,6 +229,7 @@ void TrialStage::Parts::take_tick(const session::PointerView& tick, const sessio
   if (watch->state() == TrialWatch::State::Holding) {
     state = State::Holding;
     session.hands().hold_pointer(watch->goal().start);
+    session.view().recentre_head();
   } else if (watch->state() == TrialWatch::State::Seeking) {
     state = State::Seeking;
     session.hands().hold_pointer({});

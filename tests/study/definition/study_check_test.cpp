@@ -22,15 +22,13 @@ bool says(const std::vector<Finding>& findings, const std::string& words) {
       findings, [&](const Finding& one) { return one.sentence.find(words) != std::string::npos; });
 }
 
-TEST(StudyCheck, HeadTrackingLacksItsDevice) {
+TEST(StudyCheck, HeadTrackingCanBeRun) {
   const StudyCheck check = check_study(study_of_template("head-tracking"));
   EXPECT_EQ(check.conditions, 2U);
   EXPECT_EQ(check.groups, 1U);
   EXPECT_EQ(check.balanced_by, 2U);
   EXPECT_EQ(check.trials, 16U);  // 4 scenes, twice, in both conditions
-  ASSERT_EQ(check.reasons.size(), 1U);
-  EXPECT_TRUE(says(check.reasons, "level 'tracked' of 'viewpoint' needs head-tracking"));
-  EXPECT_GT(check.reasons[0].place.line, 0U);
+  EXPECT_TRUE(check.reasons.empty());
   // power.t.test(n = 22, delta = 0.5, sd = 1, type = "paired", strict = TRUE) in R 4.2.
   ASSERT_EQ(check.powers.size(), 3U);
   EXPECT_NEAR(check.powers[0].power, 0.609184804184, 1e-9);
@@ -63,6 +61,15 @@ TEST(Needs, AreLeftOutWithTheLevelsThatHaveThem) {
   EXPECT_TRUE(check_study(*menus).reasons.empty());
 }
 
+TEST(Needs, SimulatedPeopleHaveNoHeadTracking) {
+  const Study study = study_of_template("head-tracking");
+  EXPECT_TRUE(needs(study, "head-tracking"));
+  EXPECT_FALSE(needs(study, "speech"));
+  EXPECT_TRUE(unmet_needs(study).empty());
+  ASSERT_EQ(needs_not_simulated(study).size(), 1U);
+  EXPECT_EQ(needs_not_simulated(study)[0].of, "level 'tracked' of 'viewpoint'");
+}
+
 TEST(Needs, SomethingMustBeLeft) {
   Study study = study_of_template("head-tracking");
   study.independent[0].levels[1].needs = {"head-tracking"};
@@ -77,7 +84,9 @@ TEST(StudyCheck, MenusAreNotThereYet) {
   EXPECT_EQ(check.conditions, 2U);
   EXPECT_EQ(check.balanced_by, 4U);
   EXPECT_EQ(check.trials, 30U);
+  ASSERT_EQ(check.reasons.size(), 1U);
   EXPECT_TRUE(says(check.reasons, "the study needs haptic-menu"));
+  EXPECT_GT(check.reasons[0].place.line, 0U);
   EXPECT_FALSE(says(check.warnings, "do not balance"));
 }
 

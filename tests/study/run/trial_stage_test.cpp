@@ -109,6 +109,56 @@ TEST(TrialStage, GivesNoForcesWhereTheConditionHasNone) {
   EXPECT_EQ(strongest, 0.0);
 }
 
+/// A head that leans to the right.
+class LeaningHead final : public devices::HeadDevice {
+ public:
+  const std::string& name() const override { return name_; }
+  devices::DeviceStatus read(base::Pose& user_from_head) override {
+    user_from_head = base::Pose::Identity();
+    user_from_head.translation().x() = lean;
+    return devices::DeviceStatus::Ok;
+  }
+  double lean = 0.0;  // m
+
+ private:
+  std::string name_ = "leaning";
+};
+
+/// How far the eye is off the study's view while the head leans in a trial of that condition, m.
+double eye_off_view(std::size_t condition) {
+  const TemplateFolder folder("head-tracking");
+  Study study = folder.study();
+  study.trials.hold = 0.05;
+  session::SessionSettings settings = session::quiet_settings();
+  auto head = std::make_unique<LeaningHead>();
+  LeaningHead& leaning = *head;
+  leaning.lean = 0.08;  // as the person sits: the eye is at rest there
+  settings.head = std::move(head);
+  const auto session = session::start(std::move(settings));
+  TrialStage stage(*session, study, folder.path(), Participant{});
+  TrialPlan plan = measured_trial(study, {}, 0, 0);
+  plan.condition = condition;
+  stage.begin(plan);
+  EXPECT_EQ(wait_for(stage, State::Running), State::Running) << stage.why();
+  const auto off = [&] {
+    return (session->view().drawn_view().world_from_eye.translation() -
+            session->view().now().world_from_eye.translation())
+        .norm();
+  };
+  EXPECT_LT(off(), 1e-3) << "recentred as the pointer was caught";
+  leaning.lean = 0.2;
+  for (int i = 0; i < 50; ++i) {
+    stage.update();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return off();
+}
+
+TEST(TrialStage, TheEyeFollowsTheHeadWhereTheConditionHasIt) {
+  EXPECT_GT(eye_off_view(0), 0.01);
+  EXPECT_LT(eye_off_view(1), 1e-3);
+}
+
 TEST(TrialStage, ThingsThatAreNotInATrialAreBackAfterIt) {
   TemplateFolder folder("menu");
   Study study = folder.study();
