@@ -57,4 +57,7 @@ Section loop_figures(const Extent& extent);
 /// Waves that move under the tip.
 Section implicit_figures(const Extent& extent);
 
+/// Menus of many items that are open at once.
+Section panel_figures(const Extent& extent);
+
 }  // namespace icome::benchmarks

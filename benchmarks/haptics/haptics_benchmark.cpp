@@ -78,7 +78,8 @@ std::vector<Section> all_sections(const Extent& extent) {
   add(sections_of_meshes(extent, usual_meshes()));
   add({icome::benchmarks::primitive_figures(extent), icome::benchmarks::wall_figures(extent)});
   add(icome::benchmarks::csg_figures(extent));
-  add({icome::benchmarks::loop_figures(extent), icome::benchmarks::implicit_figures(extent)});
+  add({icome::benchmarks::loop_figures(extent), icome::benchmarks::implicit_figures(extent),
+       icome::benchmarks::panel_figures(extent)});
   return sections;
 }
 

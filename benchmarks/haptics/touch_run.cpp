@@ -35,7 +35,8 @@ std::shared_ptr<const haptics::HapticScene> scene_of(std::shared_ptr<const hapti
 }
 
 TouchRun touch(const std::shared_ptr<const haptics::HapticScene>& scene, double tip_radius,
-               const std::vector<Vector3>& tips, int repeats) {
+               const std::vector<Vector3>& tips, int repeats,
+               const std::vector<haptics::PlacedEffect>& effects) {
   TouchRun result;
   std::vector<std::vector<std::int32_t>> delay(repeats);
   std::vector<std::vector<std::int32_t>> solver(repeats);
@@ -46,6 +47,7 @@ TouchRun touch(const std::shared_ptr<const haptics::HapticScene>& scene, double 
     settings.scp.tip_radius = tip_radius;
     haptics::Servo servo(device, settings);
     servo.publish(scene);
+    if (!effects.empty()) servo.publish_effects(effects);
     delay[run].resize(tips.size());
     solver[run].resize(tips.size());
     load[run].resize(tips.size());

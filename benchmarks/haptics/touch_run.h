@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "haptics/contact/haptic_scene.h"
+#include "haptics/servo/effect_feed.h"
 #include "measure.h"
 #include "table.h"
 
@@ -26,7 +27,8 @@ std::shared_ptr<const haptics::HapticScene> scene_of(std::shared_ptr<const hapti
 
 /// Runs the servo at 1 kHz ticks, as fast as it goes, along `tips` (m), `repeats` times anew.
 TouchRun touch(const std::shared_ptr<const haptics::HapticScene>& scene, double tip_radius,
-               const std::vector<Vector3>& tips, int repeats);
+               const std::vector<Vector3>& tips, int repeats,
+               const std::vector<haptics::PlacedEffect>& effects = {});
 
 /// The line of the table for a run.
 Row touch_row(const std::string& figure, const TouchRun& run, const std::optional<Faults>& faults);
