@@ -17,6 +17,7 @@ using interaction::ElementFrame;
 using interaction::ElementPlace;
 
 constexpr double kBehindHand = 0.012;  // m of the hand, from it to a menu that pops up
+constexpr double kPicture = 0.24;      // m of a menu that the picture's shorter side is long
 constexpr double kRoomForMenus = 2.0;  // widths of the menu, for those that open beside it
 constexpr const char* kFont = "DejaVu Sans";
 
@@ -58,18 +59,19 @@ std::size_t language_of(const Element& element, std::string_view language) {
 
 }  // namespace
 
-/// Metres of the stage for each of a menu: as the hand that uses it sees and moves.
+/// Metres of the stage for each of a menu: as the hand that uses it moves, or, with the mouse, to be read.
 double SessionParts::menu_size(std::optional<std::size_t> hand) const {
   if (hand && !is_mouse(*hand)) {
     const devices::MappedDevice* const mapped = hands.mapped(*hand);
     return mapped ? mapped->mapping().scale.value_or(1.0) : 1.0;
   }
-  return user.view().distance / UserInteraction::kScreenDistance;
+  const interaction::View& view = user.view();
+  return 2.0 * view.distance * std::tan(0.5 * view.field) / kPicture;
 }
 
 /// The place of the open menu now.
 ElementFrame SessionParts::menu_frame() const {
-  const Element& element = menu_as_made;
+  const Element& element = menu.use()->element();
   base::Pose rest = base::Pose::Identity();
   double size = 1.0;
   switch (element.place) {
@@ -127,7 +129,6 @@ base::Result<void> SessionMenu::open(Element element, std::string_view language,
   const interaction::View& view = parts_.user.view();
   const auto measure = [ruler = std::move(*ruler)](const std::string& text) { return ruler.width(text); };
   const std::size_t index = language_of(element, language);
-  parts_.menu_as_made = element;
   ElementFrame frame = facing(view, parts_.menu_size(spot.hand));
   if (spot.hand) {
     frame.centre = parts_.hands.view(*spot.hand).tip - kBehindHand * frame.size * frame.normal();

@@ -27,8 +27,8 @@ class SessionMenu {
   SessionMenu& operator=(const SessionMenu&) = delete;
 
   /// Opens it, in that language or, where the element has not got it, in its first one; another menu closes.
-  /// One that pops up faces the eye, as large as the hand that opens it sees and moves. Fails without the
-  /// font of its text, and for one that lies on a second hand where there is none.
+  /// One that pops up faces the eye; as large as the hand that opens it moves or, without one, to be read.
+  /// Fails without the font of its text, and for one that lies on a second hand where there is none.
   base::Result<void> open(interaction::Element element, std::string_view language, const MenuSpot& spot);
   void close();
   /// The open menu as it is; null: none is.

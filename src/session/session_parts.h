@@ -228,7 +228,6 @@ struct SessionParts {
   std::shared_ptr<TargetMaker> target_maker = std::make_shared<TargetMaker>();
   std::shared_ptr<TechniqueHand> technique;  // null: by touch
   SceneMenu menu;
-  interaction::Element menu_as_made;            // as it was opened, for where it rests
   interaction::ElementFrame menu_pops_up = {};  // there, unless it rests elsewhere
   ElementTheme menu_theme = ElementTheme::Light;
   std::vector<MenuChoice> menu_chosen;  // not told yet

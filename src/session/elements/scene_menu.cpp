@@ -10,7 +10,6 @@ namespace icome::session {
 namespace {
 
 using interaction::Choice;
-using interaction::ElementPointer;
 using interaction::ElementUse;
 using interaction::LaidSheet;
 using interaction::Widget;
@@ -52,6 +51,7 @@ void SceneMenu::close() {
   sheets_.let_go();
   use_.reset();
   hand_.reset();
+  mouse_presses_ = false;
 }
 
 std::optional<MenuChoice> SceneMenu::told(const std::optional<Choice>& choice) const {
@@ -109,7 +109,11 @@ std::optional<MenuChoice> SceneMenu::point_by_mouse(const interaction::Ray& way,
   if (!std::exchange(attended_, true)) use_->change_pointer();
   hand_.reset();
   const double before = kMouseShare * element_.choosing.near * frame.size;
-  return told(use_->point({now, *met + before * frame.normal(), button}));
+  interaction::ElementPointer at{now, *met + before * frame.normal(), false};
+  // A press is a click also where no motion of the mouse was told before it.
+  if (std::exchange(mouse_presses_, button) != button) use_->point(at);
+  at.button = button;
+  return told(use_->point(at));
 }
 
 std::optional<MenuChoice> SceneMenu::press(interaction::ElementKey key) {

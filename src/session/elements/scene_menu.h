@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -75,7 +76,8 @@ class SceneMenu {
   std::vector<render::SceneOverlay::Panel> panels_;
   std::uint64_t drawn_ = 0;  // looks() of the pictures
   std::optional<std::size_t> hand_ = {};
-  bool attended_ = false;  // by mouse or keys
+  bool attended_ = false;       // by mouse or keys
+  bool mouse_presses_ = false;  // its button is down
 };
 
 }  // namespace icome::session

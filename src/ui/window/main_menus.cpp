@@ -230,6 +230,8 @@ void MainWindow::show_hint() {
   }
   remark_ = operation_->remark();
   if (!remark_.isEmpty()) text = remark_;
+  if (session_.menu().use() != nullptr)
+    text = "Click an item, push it, or choose by arrow keys and Enter; Esc closes the menu";
   drag_words_ = tools_.drag_words();
   if (!drag_words_.empty()) text = one_line(drag_words_);
   hint_->setText(text);

@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ui/forms/elided_label.h"
 #include "ui/look/icons.h"
@@ -210,6 +211,8 @@ void MainWindow::tick() {
   show_title();
   show_count();
   show_sharing();
+  const bool has_menu = session_.menu().use() != nullptr;
+  if (std::exchange(had_menu_, has_menu) != has_menu) is_stale_ = true;
   const auto labelled = wanted_label();
   if (is_stale_ || tools_.drag_words() != drag_words_ || operation_->remark() != remark_ ||
       techniques_.hint() != technique_hint_)

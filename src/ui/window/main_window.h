@@ -131,6 +131,7 @@ class MainWindow final : public QMainWindow {
   QElapsedTimer busy_since_;  // invalid: nothing is being read or written
   bool agreed_ = false;       // a person has agreed to close
   bool closing_ = false;      // closeEvent() runs
+  bool had_menu_ = false;     // a haptic menu was open at the last tick
 };
 
 }  // namespace icome::ui

@@ -94,6 +94,9 @@ TEST(SceneMenu, TheMouseClicksWhereItsWayMeetsASheet) {
     scene.menu.point_by_mouse(way_to(name), false, scene.time += 0.01);
     return chosen ? chosen->widget.name + (chosen->checked ? " on" : "") : "";
   };
+  EXPECT_EQ(scene.menu.point_by_mouse(way_to("One"), true, scene.time += 0.01)->widget.name, "One")
+      << "without a motion before";
+  scene.menu.point_by_mouse(way_to("One"), false, scene.time += 0.01);
   EXPECT_EQ(click("Two"), "Two");
   EXPECT_EQ(click("Tick"), "Tick on");
   EXPECT_EQ(click("Tick"), "Tick");
