@@ -24,6 +24,9 @@ class Effect {
   virtual ~Effect() = default;
   /// The force (N) of this tick; called once a tick, in order. Real-time safe.
   virtual Vector3 force(const EffectInput& input) = 0;
+  /// Would a tick with the tip at that place (m, its own frame) give no force, and change nothing of what it
+  /// remembers? Only then may it be passed over. Real-time safe.
+  virtual bool is_idle_at(const Vector3& /*place*/) const { return false; }
   /// Forgets its history, because the tip jumped or the effect was off. Real-time safe.
   virtual void reset() {}
   /// Takes over the memory of another effect of the same kind, whose numbers have been changed while it

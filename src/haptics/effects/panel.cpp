@@ -307,6 +307,19 @@ Vector3 Panel::well_force(const EffectInput& input, const Ground& ground, double
   return scale * (Vector3(along.x(), along.y(), towards) - damping * input.velocity);
 }
 
+/// It has opened or faded, and the tip is beside it or far from its plane, on the side where it was.
+bool Panel::is_idle_at(const Vector3& place) const {
+  const Memory& memory = *memory_;
+  if (memory.open != (settings_.closes ? 0.0 : 1.0) || memory.sticks || !memory.last.isZero(0.0))
+    return false;
+  const Vector2 around = settings_.size * (settings_.half + Vector2::Constant(settings_.edge));
+  const bool is_beside = (place.head<2>().cwiseAbs().array() >= around.array()).any();
+  if (is_beside) return memory.side == PanelSide::Unknown;
+  const double far = settings_.size * std::max(settings_.well_reach, free_behind(settings_));
+  return (memory.side == PanelSide::Front && place.z() >= far) ||
+         (memory.side == PanelSide::Behind && place.z() <= -far);
+}
+
 /// A tip that moves `size` times as far as its hand has a mass `size` times as small (MappedDevice).
 Vector3 Panel::force(const EffectInput& at_tip) {
   EffectInput input = at_tip;

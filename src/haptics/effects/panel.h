@@ -83,6 +83,7 @@ class Panel final : public Effect {
   explicit Panel(PanelSettings settings);
 
   Vector3 force(const EffectInput& input) override;
+  bool is_idle_at(const Vector3& place) const override;
   void reset() override { *memory_ = {}; }
   void continue_from(const Effect& before) override;
   void reframe(const base::Pose& new_from_old) override;

@@ -118,6 +118,7 @@ void EffectFeed::follow(double dt) {
 void EffectFeed::bring(const Member& member, double dt, bool newer) {
   const PlacedEffect& placed = member.placed;
   Whereabouts& is = *member.felt->whereabouts;
+  if (is.rests && !newer) return;
   if (newer && placed.world_from_effect.matrix() != is.put.matrix()) {
     is.put = placed.world_from_effect;
     is.left = kGlideSeconds;
@@ -130,6 +131,7 @@ void EffectFeed::bring(const Member& member, double dt, bool newer) {
   is.goes_on = placed.motion.moves(elapsed_) ? placed.motion : Motion{};
   is.goes_on.arrives = 0.0;
   is.goes_on.ends = dt;
+  is.rests = is.left == 0.0 && placed.motion.still();
   Effect& effect = *member.felt->effect;
   const base::Pose& stays = effect.rides() ? carried : before;
   if (is.at.matrix() != stays.matrix()) effect.reframe(across(placed.mirrored, is.at.inverse() * stays));
@@ -139,6 +141,7 @@ Vector3 EffectFeed::force(const EffectInput& input, double beside) {
   Vector3 sum = Vector3::Zero();
   for (const Member& it : newest_.read().members) {
     const base::Pose& pose = it.felt->whereabouts->at;
+    if (passes_over(*it.felt, it.placed.mirrored, input.position)) continue;
     Vector3 carried = Vector3::Zero();
     if (it.felt->effect->rides()) carried = velocity_at(pose, it.placed.motion, elapsed_, input.position);
     EffectInput own = seen_from(pose, it.placed.mirrored, carried, input);
@@ -147,6 +150,15 @@ Vector3 EffectFeed::force(const EffectInput& input, double beside) {
     if (force.allFinite()) sum += eased(*it.felt, force, own);
   }
   return sum;
+}
+
+/// Does the effect neither give a force nor change in this tick?
+bool EffectFeed::passes_over(const Felt& felt, bool mirrored, const Vector3& tip) {
+  const Whereabouts& is = *felt.whereabouts;
+  if (felt.changed || !is.still.isZero(0.0) || !is.gave.isZero(0.0)) return false;
+  const base::Pose& pose = is.at;
+  const Vector3 place = pose.linear().transpose() * (tip - pose.translation());
+  return felt.effect->is_idle_at(across(mirrored, place));
 }
 
 /// The requested force, and the fading rest of the force before the effect's numbers or its piece of the

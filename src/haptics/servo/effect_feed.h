@@ -88,6 +88,7 @@ class EffectFeed {
     base::Pose put;                   // pose that its object was given last
     double left = 0.0;                // s, until it arrives at `put`
     Motion goes_on = {};              // motion of the last tick, for one more
+    bool rests = false;               // it is where it was put, without a motion
     bool felt = false;                // has it given a force since it was placed or reset?
     double share = 0.0;               // kg, its piece of the device in the last tick
     Vector3 gave = Vector3::Zero();   // N, in the last tick
@@ -111,6 +112,7 @@ class EffectFeed {
   };
   std::shared_ptr<Felt> felt_as(const PlacedEffect& placed) const;
   void bring(const Member& member, double dt, bool newer);
+  static bool passes_over(const Felt& felt, bool mirrored, const Vector3& tip);
   Vector3 eased(Felt& felt, const Vector3& asked, const EffectInput& own) const;
 
   DeviceLimits limits_;

@@ -206,6 +206,31 @@ TEST(Panel, SteepReliefDoesNotTakeTheGroundAway) {
     }
 }
 
+TEST(Panel, IsPassedOverOnlyWhereATickWouldDoNothing) {
+  base::Random random(41);
+  std::size_t idle = 0;
+  for (int i = 0; i < 200; ++i) {
+    const PanelSettings settings = random_panel(random);
+    Panel whole(settings), passed(settings);
+    Vector3 from(0.0, 0.0, 0.2);
+    for (int way = 0; way < 20; ++way) {
+      const Vector3 to(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.08, 0.08));
+      for (int tick = 1; tick <= 50; ++tick) {
+        const EffectInput input = input_at(from + (to - from) * (tick / 50.0));
+        const Vector3 force = whole.force(input);
+        if (passed.is_idle_at(input.position)) {
+          ++idle;
+          EXPECT_EQ(force, Vector3::Zero().eval());
+        } else {
+          EXPECT_EQ(force, passed.force(input));
+        }
+      }
+      from = to;
+    }
+  }
+  EXPECT_GT(idle, 10'000U);
+}
+
 TEST(Panel, ClosesAsSoftlyAsItOpens) {
   PanelSettings settings;
   Panel before(settings);
