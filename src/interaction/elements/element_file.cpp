@@ -265,7 +265,19 @@ class ElementReader {
     widget.value = keys.number("value", widget.least, widget.least, widget.most);
   }
 
-  /// The operation, whose arguments must be among its parameters; what they are is checked when it is done.
+  /// Says what is wrong with a value; empty: nothing that can be known without a design.
+  static std::string trouble_with(Parameter parameter, const Value& value) {
+    using Kind = ParameterKind;
+    if (parameter.kind == Kind::Object || parameter.kind == Kind::Objects || parameter.kind == Kind::Records)
+      return {};
+    parameter.only_for.clear();
+    const std::vector<Parameter> parameters{std::move(parameter)};
+    const Value::Fields fields{{parameters.front().name, value}};
+    const auto checked = Arguments::check(parameters, fields, world::World());
+    return checked ? std::string() : checked.error().message;
+  }
+
+  /// The operation with its arguments; whether its objects are there is checked when it is done.
   void read_operation(KeyReader& keys, Widget& widget) {
     widget.operation = keys.plain("operation");
     widget.command = keys.plain("command");
@@ -288,11 +300,17 @@ class ElementReader {
     if (with == nullptr) return;
     std::vector<std::string> names;
     for (const Parameter& parameter : (*found)->parameters) names.push_back(parameter.name);
-    for (const io::TomlMember& member : with->members)
-      if (std::ranges::find(names, member.key) == names.end())
+    for (const io::TomlMember& member : with->members) {
+      const auto parameter = std::ranges::find((*found)->parameters, member.key, &Parameter::name);
+      if (parameter == (*found)->parameters.end()) {
         problems_.add(member.place,
                       fmt::format("item '{}': {} takes no '{}'{}", widget.name, widget.operation, member.key,
                                   base::suggestion(member.key, names)));
+      } else if (const std::string wrong = trouble_with(*parameter, *field(widget.with, member.key));
+                 !wrong.empty()) {
+        problems_.add(member.place, fmt::format("item '{}': {}", widget.name, wrong));
+      }
+    }
   }
 
   Problems problems_;

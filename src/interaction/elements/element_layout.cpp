@@ -9,6 +9,7 @@ namespace {
 
 // In heights of a capital letter.
 constexpr double kRow = 2.4;         // height of a row
+constexpr double kBold = 1.15;       // times as wide are the bold letters of titles
 constexpr double kPadding = 0.9;     // from the border to text
 constexpr double kIconRoom = 2.2;    // for a square before the text
 constexpr double kMarkRoom = 2.0;    // for a tick before it
@@ -120,7 +121,7 @@ class Arranger {
     const auto height_of = [&](const Widget& widget) {
       return (widget.kind == WidgetKind::Separator ? kSeparator : kRow) * unit_;
     };
-    double width = title.empty() ? 0.0 : width_of(title) + 2.0 * kPadding * unit_;
+    double width = title.empty() ? 0.0 : kBold * width_of(title) + 2.0 * kPadding * unit_;
     double height = (title.empty() ? 0.0 : kRow * unit_) + 2.0 * kRoom * unit_;
     for (const Widget& widget : widgets) {
       width = std::max(width, width_of(widget, marks, icons));
@@ -147,7 +148,7 @@ class Arranger {
     const Vector2 cell(width + gap, height + gap);
     const double head = title().empty() ? 0.0 : kRow * unit_;
     const double whole =
-        std::max(double(columns) * cell.x() + gap, width_of(title()) + 2.0 * kPadding * unit_);
+        std::max(double(columns) * cell.x() + gap, kBold * width_of(title()) + 2.0 * kPadding * unit_);
     const Vector2 half = 0.5 * Vector2(whole, double(rows) * cell.y() + gap + head);
     add_sheet(nullptr, Vector2::Zero(), half, title());
     for (std::size_t i = 0; i < count; ++i) {
@@ -160,7 +161,7 @@ class Arranger {
   /// Words below each other, then buttons beside each other.
   void arrange_dialog() {
     const double gap = kGap * unit_, row = kRow * unit_;
-    double width = width_of(title()) + 2.0 * kPadding * unit_,
+    double width = kBold * width_of(title()) + 2.0 * kPadding * unit_,
            height = (title().empty() ? 0.0 : row) + kRoom * unit_;
     double buttons = gap;
     std::vector<std::vector<std::string>> words;
@@ -239,10 +240,10 @@ class Arranger {
     return radius;
   }
 
-  /// Half the size of a title that stands in the middle; 0 without one. It is set in bold letters.
+  /// Half the size of a title that stands in the middle; 0 without one.
   Vector2 middle_title() const {
     if (title().empty()) return Vector2::Zero();
-    return 0.5 * Vector2(1.15 * width_of(title()) + kPadding * unit_, kRow * unit_);
+    return 0.5 * Vector2(kBold * width_of(title()) + kPadding * unit_, kRow * unit_);
   }
 
   void arrange_ring(double least_radius = 0.0) {

@@ -138,6 +138,7 @@ void ElementUse::rest(double time, bool attended) {
 void ElementUse::change_pointer() {
   side_ = haptics::PanelSide::Unknown;
   button_ = true;
+  pointed_at_ = nullptr;
 }
 
 std::optional<Choice> ElementUse::point(const ElementPointer& pointer) {
@@ -154,7 +155,10 @@ std::optional<Choice> ElementUse::point(const ElementPointer& pointer) {
   const LaidWidget* const under = over ? layout_.at(place) : nullptr;
   const bool can_light =
       near_ && under != nullptr && under->widget->can_be_chosen() && under->widget->enabled;
-  if (near_ || distance <= element_.choosing.recede) lit_ = can_light ? under->widget : nullptr;
+  // A pointer that rests leaves the light to the keys.
+  const Widget* const pointed_at = can_light ? under->widget : nullptr;
+  const bool is_reached = near_ || distance <= element_.choosing.recede;
+  if (std::exchange(pointed_at_, pointed_at) != pointed_at && is_reached) lit_ = pointed_at;
   const bool clicked = pointed_ && pointer.button && !button_ && element_.choosing.by_click;
   const bool pushed_in = pushed(-front) && element_.choosing.by_push;
   pointed_ = true;
@@ -207,7 +211,7 @@ void ElementUse::close_menus(std::size_t keep) {
 void ElementUse::lay_out_again() {
   layout_ = lay_out(element_, layout_.language, measure_, open_);
   const auto is_lit = [&](const LaidWidget& laid) { return laid.widget == lit_; };
-  if (std::ranges::none_of(layout_.widgets, is_lit)) lit_ = nullptr;
+  if (std::ranges::none_of(layout_.widgets, is_lit)) lit_ = pointed_at_ = nullptr;
 }
 
 /// Lights the next widget of the newest menu that can be chosen, going round.
@@ -262,6 +266,7 @@ std::optional<Choice> ElementUse::press(ElementKey key) {
     case ElementKey::Right:
       return press_aside(key == ElementKey::Right);
     case ElementKey::Enter:
+      if (lit_ != nullptr && !lit_->widgets.empty()) return press_aside(true);
       return lit_ != nullptr ? choose(*lit_, ChosenBy::Key) : choose_first(&Widget::is_default);
     case ElementKey::Escape:
       if (open_.empty()) return choose_first(&Widget::is_cancel);

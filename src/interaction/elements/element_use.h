@@ -97,8 +97,9 @@ class ElementUse {
   std::vector<const Widget*> open_;
   std::vector<Setting> settings_;
   const Widget* lit_ = nullptr;
-  bool started_ = false;  // has it been told a time?
-  bool pointed_ = false;  // has there been a pointer?
+  const Widget* pointed_at_ = nullptr;  // by the pointer, when it came there
+  bool started_ = false;                // has it been told a time?
+  bool pointed_ = false;                // has there been a pointer?
   bool near_ = false;
   double opacity_;
   haptics::PanelSettings ground_;

@@ -13,7 +13,7 @@ std::string wrong(const std::string& text) {
 }
 
 TEST(ElementFile, ReadsTheMenusOfTheProject) {
-  for (const char* const name : {"colours", "modelling", "clear"}) {
+  for (const char* const name : {"colours", "modelling", "clear", "desktop"}) {
     const auto path = places::project_folder() / "data/menus" / (std::string(name) + ".toml");
     const auto read = read_element_file(path);
     ASSERT_TRUE(read) << read.error().message;
@@ -42,6 +42,9 @@ TEST(ElementFile, SaysWhatIsWrongAndWhere) {
                 .find("only one item can be the default"),
             std::string::npos);
   EXPECT_NE(wrong("[[item]]\nname = \"A\\nB\"\n").find("control characters"), std::string::npos);
+  EXPECT_NE(wrong("[[item]]\nname = \"A\"\noperation = \"create\"\nwith = { shape = \"blob\" }\n")
+                .find("m.toml:4:"),
+            std::string::npos);
   EXPECT_NE(wrong("").find("has no widgets"), std::string::npos);
   EXPECT_NE(
       wrong("turn_deg = nan\n[[item]]\nname = \"A\"\n").find("m.toml:1:12: the element: turn_deg is nan"),

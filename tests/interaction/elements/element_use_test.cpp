@@ -76,6 +76,17 @@ struct Fixture {
   Hand hand;
 };
 
+TEST(ElementUse, APointerThatRestsLeavesTheLightToTheKeys) {
+  Fixture it;
+  it.hand.move(it.hand.at("One", 0.01), 0.1);
+  EXPECT_EQ(it.use.lit()->name, "One");
+  it.use.press(ElementKey::Down);
+  it.hand.move(it.hand.tip(), 0.1);
+  EXPECT_EQ(it.use.lit()->name, "More");
+  it.hand.move(it.hand.at("Tick", 0.01), 0.1);
+  EXPECT_EQ(it.use.lit()->name, "Tick");
+}
+
 TEST(ElementUse, ClickAndPushChooseTheSame) {
   for (const std::string name : {"One", "Tick", "B"}) {
     Fixture clicked, pushed;
@@ -195,6 +206,9 @@ TEST(ElementUse, KeysReachEverythingThatThePointerDoes) {
   EXPECT_EQ(it.use.press(ElementKey::Enter)->widget->name, "One");
   it.use.press(ElementKey::Down);  // over the disabled one
   EXPECT_EQ(it.use.lit()->name, "More");
+  EXPECT_EQ(it.use.press(ElementKey::Enter)->widget->name, "More");
+  EXPECT_EQ(it.use.lit()->name, "Deep") << "Enter goes into a menu as Right does";
+  it.use.press(ElementKey::Left);
   EXPECT_EQ(it.use.press(ElementKey::Right)->widget->name, "More");
   EXPECT_EQ(it.use.lit()->name, "Deep");
   it.use.press(ElementKey::Right);
