@@ -101,7 +101,8 @@ void SceneTools::release(const SceneInput& input) {
 }
 
 void SceneTools::double_click(const SceneInput& input) {
-  if (input.button != Qt::LeftButton || tool_ == Tool::Touch) {
+  const bool is_on_menu = session_.menu().met_by(input.ray(session_.view().now())).has_value();
+  if (input.button != Qt::LeftButton || tool_ == Tool::Touch || is_on_menu) {
     press(input);
     return;
   }
@@ -160,10 +161,17 @@ void SceneTools::ask_for_menu() {
   listener_.menu(spot);
 }
 
-/// The second button of a stylus opens the menu there, and closes it. A technique travels with that button.
+/// The second button of a stylus opens the menu there, and closes it, where it is not the clutch. A technique
+/// travels with that button.
 void SceneTools::notice_menu_buttons() {
-  for (std::size_t i = 0; i < std::min(session_.hands().pointers(), menu_buttons_.size()); ++i) {
-    const bool down = session_.hands().mouse() != i && (session_.hands().pointer(i).buttons & 2U) != 0;
+  constexpr int kButton = 1;
+  const session::SessionHands& hands = session_.hands();
+  for (std::size_t i = 0; i < std::min(hands.pointers(), menu_buttons_.size()); ++i) {
+    bool down = hands.mouse() != i && (hands.pointer(i).buttons >> kButton & 1U) != 0;
+    if (down) {
+      const auto mapping = hands.use(i).mapping;
+      down = !mapping || mapping->clutch_button != kButton;
+    }
     if (down && !std::exchange(menu_buttons_[i], down) && !session_.techniques().current())
       listener_.menu({.hand = i});
     menu_buttons_[i] = down;

@@ -5,6 +5,7 @@
 #include <QKeyEvent>
 #include <cmath>
 
+#include "devices/simulated/simulated_device.h"
 #include "ui/window_test.h"
 #include "world/shape/mesh_geometry.h"
 #include "world/shape/solid_geometry.h"
@@ -138,6 +139,31 @@ TEST_F(MenuActionsTest, AHandThatPushesChoosesTheSame) {
   EXPECT_EQ(world_from_object(world(), box).translation(), Vector3::Zero().eval()) << "it was not dragged";
 }
 
+TEST_F(MenuActionsTest, ADoubleClickOnItIsTwoClicks) {
+  add_box();
+  QFile ticks(file("ticks.toml"));
+  ASSERT_TRUE(ticks.open(QIODevice::WriteOnly));
+  ticks.write("at = \"pointer\"\n[[item]]\nname = \"Tick\"\nkind = \"check\"\n");
+  ticks.close();
+  settings_.setValue("menu/file", ticks.fileName());
+  key(Qt::Key_Space);
+  ASSERT_TRUE(is_open());
+  const auto is_ticked = [&] {
+    const auto& use = *session().menu().use();
+    return use.is_checked(use.element().widgets.front());
+  };
+  const interaction::View before = session().view().now();
+  click("Tick");
+  EXPECT_TRUE(is_ticked());
+  const QPointF at = pixel("Tick");
+  QMouseEvent twice(QEvent::MouseButtonDblClick, at, at, Qt::LeftButton, Qt::LeftButton, {});
+  QCoreApplication::sendEvent(&mouse_.window(), &twice);
+  mouse_.release(at);
+  EXPECT_FALSE(is_ticked());
+  until([] { return true; });
+  EXPECT_EQ(session().view().now().world_from_eye.matrix(), before.world_from_eye.matrix());
+}
+
 TEST_F(MenuActionsTest, TicksAreThoseOfTheCommands) {
   key(Qt::Key_Space);
   const auto& use = *session().menu().use();
@@ -186,6 +212,72 @@ TEST_F(MenuActionsTest, AMenuOfAFileIsUsedAndAWrongOneTold) {
   EXPECT_NEAR(beside(), before, 1e-9);
   EXPECT_EQ(settings.value("menu/file").toString(), good.fileName());
   session().menu().close();
+}
+
+/// A stylus alone, without a mouse in the scene.
+class StylusMenuTest : public WindowTest {
+ protected:
+  StylusMenuTest() : StylusMenuTest(new devices::SimulatedDevice()) {}
+
+  bool is_open() { return session().menu().use() != nullptr; }
+  /// Leads the tip to a place of the stage; its workspace is there without a turn.
+  void lead(const Vector3& place) { stylus_->set_target(place - offset_); }
+  Vector3 at(const char* name, double front) {
+    const auto& use = *session().menu().use();
+    for (const interaction::LaidWidget& it : use.layout().widgets)
+      if (it.widget->name == name)
+        return use.frame().in_world(it.centre) + front * use.frame().size * use.frame().normal();
+    return Vector3::Constant(std::nan(""));
+  }
+
+  /// Leads the tip before an item, and lets it come to rest there; the item is lit then.
+  bool comes_to(const char* name) {
+    lead(at(name, 0.01));
+    return until([&] {
+      const auto* const lit = session().menu().use()->lit();
+      const double off = (session().hands().pointer(0).tip - at(name, 0.01)).norm();
+      return lit != nullptr && lit->name == name && off < 0.001;
+    });
+  }
+
+  devices::SimulatedDevice* stylus_;  // the session's
+  Vector3 offset_ = Vector3::Zero();  // of the workspace
+
+ private:
+  explicit StylusMenuTest(devices::SimulatedDevice* stylus)
+      : WindowTest(settings_with(stylus)), stylus_(stylus) {}
+  static session::SessionSettings settings_with(devices::SimulatedDevice* stylus) {
+    session::SessionSettings settings;
+    settings.pointers.emplace_back(stylus);
+    return settings;
+  }
+};
+
+TEST_F(StylusMenuTest, TheSecondButtonOpensItAtTheHandWhichPushes) {
+  ASSERT_TRUE(until([&] { return session().hands().pointer(0).time != 0; }));
+  offset_ = session().hands().pointer(0).tip;
+  stylus_->hold_buttons(2);
+  ASSERT_TRUE(until([&] { return is_open(); }));
+  const auto& frame = session().menu().use()->frame();
+  EXPECT_EQ(frame.size, 1.0) << "a device without a scale";
+  EXPECT_NEAR(frame.front_distance(session().hands().pointer(0).tip), 0.012, 1e-3);
+  stylus_->hold_buttons(0);
+  ASSERT_TRUE(comes_to("New"));
+  lead(at("New", -0.01));
+  ASSERT_TRUE(until([&] { return session().menu().use()->open().size() == 1; }));
+  EXPECT_GT(session().hands().pointer(0).force.norm(), 0.5) << "it is felt";
+  ASSERT_TRUE(comes_to("New"));
+  ASSERT_TRUE(comes_to("Cylinder"));
+  stylus_->hold_buttons(1);
+  ASSERT_TRUE(until([&] { return world().roots().size() == 1; })) << "near is enough to click";
+  EXPECT_FALSE(session().hands().holds(0)) << "the press was the menu's";
+  stylus_->hold_buttons(0);
+  stylus_->hold_buttons(2);
+  ASSERT_TRUE(until([&] { return is_open(); }));
+  stylus_->hold_buttons(0);
+  ASSERT_TRUE(until([&] { return session().hands().pointer(0).buttons == 0; }));
+  stylus_->hold_buttons(2);
+  EXPECT_TRUE(until([&] { return !is_open(); }));
 }
 
 }  // namespace
