@@ -39,7 +39,7 @@ double end_of_inside(const Function& f) {
     next = std::abs(next - middle) > shift ? next + std::copysign(shift, middle - next) : middle;
     // As far from the middle as leaves enough halvings to the end.
     const double spare = std::max(0.5 * kRounding * std::exp2(kMostHalvings - i) - 0.5 * width, 0.0);
-    if (!(std::abs(next - middle) <= spare)) next = middle;
+    if (!(std::abs(next - middle) <= spare) || next <= first || next >= last) next = middle;
     if (next <= first || next >= last) break;
     const double value = f(next);
     (value < 0.0 ? first : last) = next;
