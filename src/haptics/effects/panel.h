@@ -58,10 +58,10 @@ enum class PanelSide : std::uint8_t {
 /// open plane from behind, or where the ground has let go, does it come to the other one. Real-time safe.
 PanelSide next_side(PanelSide last, double front, double height, const PanelSettings& settings);
 
-/// The flat ground of an interface element that lies in the scene, in its own plane z = 0, with front +z, in
-/// metres of its own, as a hand feels them whose motions are scaled (PanelSettings::size): it
+/// The flat ground of an interface element that lies in the scene, in its own plane z = 0, with front +z: it
 /// carries the hand from the front, and lets it pass from behind (thesis 6.6.3), or carries it from both
-/// sides. A tip that was behind it when it opened, or came to there round its edge, feels nothing.
+/// sides. A tip that was behind it when it opened, or came to there round its edge, feels nothing. Its metres
+/// are those of the hand, where that moves less or more than the tip (PanelSettings::size).
 ///
 /// Where relief would be too steep for the device and the tick it is felt lower, and wells shallower; the
 /// ground itself is as hard as it is stable.

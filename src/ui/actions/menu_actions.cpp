@@ -1,7 +1,5 @@
 #include "ui/actions/menu_actions.h"
 
-#include <fmt/format.h>
-
 #include <QFileDialog>
 #include <QLocale>
 #include <utility>
@@ -83,7 +81,9 @@ std::optional<bool> MenuActions::is_possible(const Widget& widget) const {
   }
   if (widget.operation.empty()) return std::nullopt;
   const auto operation = interaction::find_operation(widget.operation);
-  return operation && completed_fields(**operation, widget.with, session_.selection()).has_value();
+  if (!operation) return false;
+  return asks_for_values(**operation, widget.with) ||
+         completed_fields(**operation, widget.with, session_.selection()).has_value();
 }
 
 /// Items are ticked as the commands are that they do.

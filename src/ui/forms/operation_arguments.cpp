@@ -21,6 +21,19 @@ bool takes_objects(const Parameter& parameter) {
   return parameter.kind == ParameterKind::Object || parameter.kind == ParameterKind::Objects;
 }
 
+/// The parameters that must be given, too.
+std::vector<Parameter> missing_of(const Operation& operation, const Value::Fields& given) {
+  std::string choice;
+  if (!operation.parameters.empty())
+    if (const Value* const first = interaction::field(given, operation.parameters.front().name))
+      if (const std::string* const text = first->text()) choice = *text;
+  std::vector<Parameter> missing;
+  for (const Parameter& it : operation.parameters)
+    if (it.required && is_asked(it, choice) && interaction::field(given, it.name) == nullptr)
+      missing.push_back(it);
+  return missing;
+}
+
 }  // namespace
 
 bool asks_only_for_objects(const Operation& operation) {
@@ -48,13 +61,13 @@ Value value_of(const Parameter& parameter, const std::vector<ObjectId>& objects)
   return parameter.kind == ParameterKind::Object ? names.front() : Value(std::move(names));
 }
 
+bool asks_for_values(const Operation& operation, const Value::Fields& given) {
+  return !std::ranges::all_of(missing_of(operation, given), takes_objects);
+}
+
 std::optional<Value::Fields> completed_fields(const Operation& operation, const Value::Fields& given,
                                               const std::vector<ObjectId>& selection) {
-  std::vector<Parameter> missing;
-  for (const Parameter& it : operation.parameters)
-    if (it.required && it.only_for.empty() &&
-        std::ranges::count(given, it.name, &Value::Fields::value_type::first) == 0)
-      missing.push_back(it);
+  const std::vector<Parameter> missing = missing_of(operation, given);
   const auto shares = shares_of(missing, selection);
   Value::Fields fields = given;
   std::size_t used = 0;

@@ -20,6 +20,9 @@ std::vector<std::vector<world::ObjectId>> shares_of(const std::vector<interactio
 interaction::Value value_of(const interaction::Parameter& parameter,
                             const std::vector<world::ObjectId>& objects);
 
+/// Does the operation ask for values beside these fields that no selection gives?
+bool asks_for_values(const interaction::Operation& operation, const interaction::Value::Fields& given);
+
 /// These fields, with the objects that the operation asks for besides them taken from the selection; nothing
 /// where too few or too many are selected, or something else is missing.
 std::optional<interaction::Value::Fields> completed_fields(const interaction::Operation& operation,

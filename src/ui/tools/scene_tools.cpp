@@ -181,34 +181,18 @@ void SceneTools::notice_menu_buttons() {
 /// A key for the haptic menu while it is open.
 bool SceneTools::menu_key(int key) {
   using interaction::ElementKey;
+  static constexpr std::pair<int, ElementKey> kKeys[] = {
+      {Qt::Key_Up, ElementKey::Up},        {Qt::Key_Down, ElementKey::Down},
+      {Qt::Key_Left, ElementKey::Left},    {Qt::Key_Right, ElementKey::Right},
+      {Qt::Key_Return, ElementKey::Enter}, {Qt::Key_Enter, ElementKey::Enter},
+      {Qt::Key_Escape, ElementKey::Escape}};
+  const auto found = std::ranges::find(kKeys, key, &std::pair<int, ElementKey>::first);
+  if (found == std::end(kKeys)) return false;
   session::SessionMenu& menu = session_.menu();
-  switch (key) {
-    case Qt::Key_Up:
-      menu.press(ElementKey::Up);
-      return true;
-    case Qt::Key_Down:
-      menu.press(ElementKey::Down);
-      return true;
-    case Qt::Key_Left:
-      menu.press(ElementKey::Left);
-      return true;
-    case Qt::Key_Right:
-      menu.press(ElementKey::Right);
-      return true;
-    case Qt::Key_Return:
-    case Qt::Key_Enter:
-      menu.press(ElementKey::Enter);
-      return true;
-    case Qt::Key_Escape: {
-      const bool backs_out =
-          !menu.use()->open().empty() ||
-          std::ranges::any_of(menu.use()->element().widgets, &interaction::Widget::is_cancel);
-      backs_out ? menu.press(ElementKey::Escape) : menu.close();
-      return true;
-    }
-    default:
-      return false;
-  }
+  const bool backs_out = !menu.use()->open().empty() ||
+                         std::ranges::any_of(menu.use()->element().widgets, &interaction::Widget::is_cancel);
+  found->second == ElementKey::Escape && !backs_out ? menu.close() : menu.press(found->second);
+  return true;
 }
 
 bool SceneTools::escape() {

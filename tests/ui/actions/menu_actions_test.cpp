@@ -16,6 +16,18 @@ namespace {
 using base::Vector3;
 using world::ObjectId;
 
+ObjectId add_box(session::Session& session, const Vector3& centre = Vector3::Zero()) {
+  const auto shape = session.ids().next<world::GeometryId>();
+  const auto id = session.ids().next<ObjectId>();
+  world::PhysicalObject object{.name = "box", .geometry = shape};
+  object.parent_from_object.translation() = centre;
+  const auto box = std::make_shared<world::PrimitiveGeometry>(geometry::Box{Vector3::Constant(0.05)});
+  const auto done = session.history().perform(
+      world::EditGroup{{world::CreateGeometry{shape, box}, world::CreateObject{id, 0, object}}}, "Add");
+  EXPECT_TRUE(done) << done.error().message;
+  return id;
+}
+
 class MenuActionsTest : public WindowTest {
  protected:
   void key(int key) {
@@ -45,14 +57,6 @@ class MenuActionsTest : public WindowTest {
     mouse_.move(at);
     mouse_.press(at);
     mouse_.release(at);
-  }
-  ObjectId add_box() {
-    const auto shape = session().ids().next<world::GeometryId>();
-    const auto id = session().ids().next<ObjectId>();
-    const auto box = std::make_shared<world::PrimitiveGeometry>(geometry::Box{Vector3::Constant(0.05)});
-    perform(world::EditGroup{
-        {world::CreateGeometry{shape, box}, world::CreateObject{id, 0, {.name = "box", .geometry = shape}}}});
-    return id;
   }
   std::optional<world::Colour> colour_of(ObjectId id) {
     const auto material = world().find(id)->material;
@@ -95,7 +99,7 @@ TEST_F(MenuActionsTest, SpaceOpensItAndKeysChoose) {
 }
 
 TEST_F(MenuActionsTest, TheMouseColoursWhatIsSelectedAndTakesItBack) {
-  const ObjectId box = add_box();
+  const ObjectId box = add_box(session());
   session().select({box});
   mouse_.move({300.0, 200.0});
   key(Qt::Key_Space);
@@ -115,7 +119,7 @@ TEST_F(MenuActionsTest, TheMouseColoursWhatIsSelectedAndTakesItBack) {
 }
 
 TEST_F(MenuActionsTest, AHandThatPushesChoosesTheSame) {
-  const ObjectId box = add_box();
+  const ObjectId box = add_box(session());
   session().select({box});
   action("tool.touch")->trigger();
   mouse_.move({300.0, 200.0});
@@ -140,7 +144,7 @@ TEST_F(MenuActionsTest, AHandThatPushesChoosesTheSame) {
 }
 
 TEST_F(MenuActionsTest, ADoubleClickOnItIsTwoClicks) {
-  add_box();
+  add_box(session());
   QFile ticks(file("ticks.toml"));
   ASSERT_TRUE(ticks.open(QIODevice::WriteOnly));
   ticks.write("at = \"pointer\"\n[[item]]\nname = \"Tick\"\nkind = \"check\"\n");
@@ -162,6 +166,23 @@ TEST_F(MenuActionsTest, ADoubleClickOnItIsTwoClicks) {
   EXPECT_FALSE(is_ticked());
   until([] { return true; });
   EXPECT_EQ(session().view().now().world_from_eye.matrix(), before.world_from_eye.matrix());
+}
+
+TEST_F(MenuActionsTest, WhatAnOperationLacksItsFormAsksFor) {
+  QFile words(file("words.toml"));
+  ASSERT_TRUE(words.open(QIODevice::WriteOnly));
+  words.write(
+      "at = \"pointer\"\n[[item]]\nname = \"Words\"\noperation = \"create\"\nwith = { shape = \"text\" }\n"
+      "[[item]]\nname = \"Pink\"\noperation = \"colour\"\nwith = { colour = \"#ff66cc\" }\n");
+  words.close();
+  settings_.setValue("menu/file", words.fileName());
+  key(Qt::Key_Space);
+  ASSERT_TRUE(is_open());
+  EXPECT_FALSE(enabled("Pink")) << "only a selection would do";
+  ASSERT_TRUE(session().menu().choose("Words"));
+  const auto* const form = window_->findChild<QWidget*>("dock.operation");
+  EXPECT_TRUE(until([&] { return form->isVisible(); }));
+  EXPECT_TRUE(world().roots().empty());
 }
 
 TEST_F(MenuActionsTest, TicksAreThoseOfTheCommands) {
@@ -268,8 +289,13 @@ TEST_F(StylusMenuTest, TheSecondButtonOpensItAtTheHandWhichPushes) {
   EXPECT_GT(session().hands().pointer(0).force.norm(), 0.5) << "it is felt";
   ASSERT_TRUE(comes_to("New"));
   ASSERT_TRUE(comes_to("Cylinder"));
+  // On a box that a press would take hold of.
+  const Vector3 tip = session().hands().pointer(0).tip;
+  const ObjectId box = add_box(session(), tip - Vector3(0.0, 0.05, 0.0));
+  lead(at("Cylinder", 0.01) - Vector3(0.0, 0.003, 0.0));
+  ASSERT_TRUE(until([&] { return session().hands().touched(0) == box; }));
   stylus_->hold_buttons(1);
-  ASSERT_TRUE(until([&] { return world().roots().size() == 1; })) << "near is enough to click";
+  ASSERT_TRUE(until([&] { return world().roots().size() == 2; })) << "near is enough to click";
   EXPECT_FALSE(session().hands().holds(0)) << "the press was the menu's";
   stylus_->hold_buttons(0);
   stylus_->hold_buttons(2);
