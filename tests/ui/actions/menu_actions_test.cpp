@@ -253,11 +253,14 @@ class StylusMenuTest : public WindowTest {
 
   /// Leads the tip before an item, and lets it come to rest there; the item is lit then.
   bool comes_to(const char* name) {
+    constexpr std::int64_t kRests = 200'000'000;  // ns
     lead(at(name, 0.01));
+    std::int64_t there_since = session().hands().pointer(0).time;
     return until([&] {
+      const session::PointerView& now = session().hands().pointer(0);
+      if ((now.tip - at(name, 0.01)).norm() > 0.001) there_since = now.time;
       const auto* const lit = session().menu().use()->lit();
-      const double off = (session().hands().pointer(0).tip - at(name, 0.01)).norm();
-      return lit != nullptr && lit->name == name && off < 0.001;
+      return now.time - there_since > kRests && lit != nullptr && lit->name == name;
     });
   }
 
