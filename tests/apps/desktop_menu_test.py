@@ -23,7 +23,7 @@ class DesktopMenuTest(DesktopTest):
         desktop.key("ctrl+z")
         desktop.wait_title(r"^Untitled - ICOME")
 
-    def test_over_the_demo_in_both_themes(self):
+    def test_it_colours_what_is_selected_in_both_themes(self):
         for theme in ("light", "dark"):
             desktop = self.start("--theme", theme, DEMO).open()
             desktop.wait_title(r"demo")
@@ -37,8 +37,12 @@ class DesktopMenuTest(DesktopTest):
             desktop.key("Down", "Down", "Right", "Down", "Down")
             desktop.settled_scene()
             self.keep(desktop, "menu-demo-" + theme)
-            desktop.key("Escape")
+            desktop.key("Return")
+            desktop.wait_title(r"^demo\.wrl\* - ICOME")
+            desktop.key("ctrl+z")
+            desktop.wait_title(r"^demo\.wrl - ICOME")
             desktop.quit()
+            self.assertEqual(desktop.wait_end(), 0)
 
 
 if __name__ == "__main__":

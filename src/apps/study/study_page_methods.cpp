@@ -136,17 +136,6 @@ std::string balance_text(const StudyPage& page) {
   return text;
 }
 
-/// All needs of the study, its levels and its scenes.
-std::vector<std::string> all_needs(const study::Study& study) {
-  std::vector<std::string> needs = study.needs;
-  for (const study::IndependentVariable& factor : study.independent)
-    for (const study::Level& level : factor.levels)
-      needs.insert(needs.end(), level.needs.begin(), level.needs.end());
-  for (const study::TrialScene& scene : study.trials.scenes)
-    needs.insert(needs.end(), scene.needs.begin(), scene.needs.end());
-  return needs;
-}
-
 /// Is there something to feel in some trial, with a device that gives forces?
 bool gives_forces(const study::Study& study) {
   bool always_set = false;
@@ -174,7 +163,7 @@ std::string apparatus_of_simulation(const study::Study& study) {
 std::string apparatus_text(const StudyPage& page) {
   const study::Study& study = page.data().study;
   if (page.data().simulated) return apparatus_of_simulation(study);
-  const std::vector<std::string> ids = all_needs(study);
+  const std::vector<std::string> ids = study::all_needs(study);
   std::vector<std::string> needs;
   for (const study::Capability& capability : study::capabilities())
     if (std::ranges::find(ids, capability.id) != ids.end())

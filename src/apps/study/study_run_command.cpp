@@ -59,8 +59,9 @@ base::Result<OpenedStudy> study_to_run(const StudyOptions& options) {
   // Reasons begin with unmet needs, and simulated people need no devices.
   for (std::size_t i = options.simulate > 0 ? unmet.size() : 0; i < check.reasons.size(); ++i)
     why += fmt::format(" {}", check.reasons[i].sentence);
-  const bool lacks_head =
-      options.simulate == 0 && options.devices.head.empty() && study::needs(opened->study, "head-tracking");
+  const auto needs = study::all_needs(opened->study);
+  const bool lacks_head = options.simulate == 0 && options.devices.head.empty() &&
+                          std::ranges::find(needs, "head-tracking") != needs.end();
   if (why.empty() && lacks_head)
     return base::fail(fmt::format(
         "{} needs head-tracking: name the tracker with --head (icome devices lists them), or leave "

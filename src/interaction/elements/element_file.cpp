@@ -20,7 +20,6 @@ using io::TomlNode;
 using io::Words;
 
 constexpr double kFarthestCentre = 1000.0;          // m
-constexpr double kDeepestRecess = 0.003;            // m
 constexpr std::uint64_t kLongestFile = 10'000'000;  // bytes
 
 const Words<ElementKind> kKinds = {{"menu", ElementKind::Menu},
@@ -164,7 +163,7 @@ class ElementReader {
     const std::vector<std::string> none = {"en"};
     KeyReader inner(*table, "feel", none, problems_);
     feel.well = inner.number("well_n", feel.well, 0.0, 3.0);
-    feel.recess = inner.number("recess_m", feel.recess, -kDeepestRecess, kDeepestRecess);
+    feel.recess = inner.number("recess_m", feel.recess, -0.003, 0.003);
     feel.ridge = inner.number("ridge_m", feel.ridge, -0.003, 0.003);
     feel.rings = inner.number("rings_m", feel.rings, 0.0, 0.001);
     feel.ring_spacing = inner.number("ring_spacing_m", feel.ring_spacing, 0.0005, 0.05);

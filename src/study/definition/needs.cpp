@@ -67,16 +67,14 @@ std::vector<UnmetNeed> needs_not_simulated(const Study& study) {
   return needs_unmet_by(study, &Capability::simulated);
 }
 
-bool needs(const Study& study, std::string_view need) {
-  const auto has = [&](const std::vector<std::string>& all) {
-    return std::ranges::find(all, need) != all.end();
-  };
-  return has(study.needs) ||
-         std::ranges::any_of(study.independent,
-                             [&](const IndependentVariable& factor) {
-                               return std::ranges::any_of(factor.levels, has, &Level::needs);
-                             }) ||
-         std::ranges::any_of(study.trials.scenes, has, &TrialScene::needs);
+std::vector<std::string> all_needs(const Study& study) {
+  std::vector<std::string> needs = study.needs;
+  for (const IndependentVariable& factor : study.independent)
+    for (const Level& level : factor.levels)
+      needs.insert(needs.end(), level.needs.begin(), level.needs.end());
+  for (const TrialScene& scene : study.trials.scenes)
+    needs.insert(needs.end(), scene.needs.begin(), scene.needs.end());
+  return needs;
 }
 
 base::Result<Study> without_needs(const Study& study, const std::vector<std::string>& needs) {

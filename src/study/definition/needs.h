@@ -33,8 +33,8 @@ std::vector<UnmetNeed> unmet_needs(const Study& study);
 /// Those that are not met for simulated people.
 std::vector<UnmetNeed> needs_not_simulated(const Study& study);
 
-/// Does the study need that in some part?
-bool needs(const Study& study, std::string_view need);
+/// The ids of all needs of the study, its levels and its scenes; some of them more than once.
+std::vector<std::string> all_needs(const Study& study);
 
 /// The study without these needs and without the levels and scenes that have them: the rest can be run
 /// where they cannot be met, such as with the pointer alone. Its hash is different, so that its data are
