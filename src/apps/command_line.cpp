@@ -48,6 +48,7 @@ struct Entries {
   KeepOptions keep;
   HeadOptions head;
   MenuOptions menu;
+  SpeechOptions speech;
   DesktopCommandOptions desktop;
   TouchOptions touch;
   std::string friction;
@@ -525,6 +526,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   add_keep(app, entries.keep);
   add_head(app, entries.head);
   add_menu(app, entries.menu);
+  add_speech(app, entries.speech);
   const CLI::App* const named = named_subcommand(app, 1, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
   if (argc > 1 && argv[1][0] != '-' && named == nullptr && !is_design_name(argv[1]))
@@ -578,6 +580,8 @@ CommandLine parse_command_line(int argc, char** argv) {
     command_line.head = std::move(entries.head);
   } else if (!entries.menu.file.empty()) {
     command_line.menu = std::move(entries.menu);
+  } else if (!entries.speech.task.empty()) {
+    command_line.speech = std::move(entries.speech);
   } else if (techniques.parsed()) {
     auto options = understood_techniques(entries);
     if (!options) return bad_usage(options.error().message, help);

@@ -9,6 +9,7 @@
 #include "base/near_names.h"
 #include "interaction/operations/looks/colour_names.h"
 #include "interaction/operations/operation.h"
+#include "interaction/operations/toml_value.h"
 #include "io/file_bytes.h"
 
 namespace icome::interaction {
@@ -34,30 +35,6 @@ const Words<ElementPlace> kPlaces = {{"world", ElementPlace::World},
                                      {"head", ElementPlace::Head},
                                      {"hand", ElementPlace::Hand},
                                      {"pointer", ElementPlace::Pointer}};
-
-Value value_of(const TomlNode& node) {
-  switch (node.kind) {
-    case TomlNode::Kind::Table: {
-      Value::Fields fields;
-      for (const io::TomlMember& member : node.members)
-        fields.emplace_back(member.key, value_of(member.value));
-      return fields;
-    }
-    case TomlNode::Kind::Array: {
-      Value::List list;
-      for (const TomlNode& element : node.elements) list.push_back(value_of(element));
-      return list;
-    }
-    case TomlNode::Kind::Number:
-      return node.number;
-    case TomlNode::Kind::Boolean:
-      return node.boolean;
-    case TomlNode::Kind::String:
-    case TomlNode::Kind::Date:
-      break;
-  }
-  return node.text;
-}
 
 class ElementReader {
  public:
@@ -284,7 +261,7 @@ class ElementReader {
       problems_.add(keys.place_of("command"),
                     fmt::format("item '{}': it does either an operation or a command.", widget.name));
     const TomlNode* const with = keys.table("with");
-    if (with != nullptr) widget.with = *value_of(*with).fields();
+    if (with != nullptr) widget.with = *value_from_toml(*with).fields();
     if (widget.operation.empty()) {
       if (with != nullptr)
         problems_.add(with->place, fmt::format("item '{}': with needs operation.", widget.name));

@@ -24,6 +24,9 @@ class OperationTarget {
   virtual base::Result<void> act(const world::Edit& edit, const std::string& title) = 0;
   virtual base::Result<void> undo() = 0;
   virtual base::Result<void> redo() = 0;
+  /// Is there something to take back, or to do again? A target that cannot tell says so, and refuses then.
+  virtual bool can_undo() const { return true; }
+  virtual bool can_redo() const { return true; }
 };
 
 /// Performs {"op": NAME, parameters...}. A failed one changes nothing; the sentence begins with the
@@ -33,12 +36,14 @@ base::Result<Performed> perform_operation(OperationTarget& target, const Value& 
 
 /// Performs operations on a world that it owns, as a person at the desktop would: `icome edit` and tests
 /// drive it, and it undoes and redoes.
-class OperationRunner final : private OperationTarget {
+class OperationRunner final : public OperationTarget {
  public:
   explicit OperationRunner(world::World world, PictureReader pictures = {});
 
   const world::World& world() const override { return world_; }
   const world::History& history() const { return history_; }
+  bool can_undo() const override { return history_.can_undo(); }
+  bool can_redo() const override { return history_.can_redo(); }
 
   /// As perform_operation().
   base::Result<Performed> perform(const Value& command) {

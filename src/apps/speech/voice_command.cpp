@@ -1,0 +1,107 @@
+#include "apps/speech/voice_command.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/design/design_work.h"
+#include "apps/interrupt.h"
+#include "apps/speech/talk.h"
+#include "apps/terminal.h"
+#include "speech/dialogue/sayable.h"
+
+namespace icome::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json words_json(const speech::Vocabulary& vocabulary) {
+  Json tables = Json::object();
+  for (const auto& [name, words] : vocabulary.tables) {
+    Json& table = tables[name] = Json::array();
+    for (const speech::WordMeaning& word : words) table.push_back(word.words);
+  }
+  return tables;
+}
+
+Json names_json(const world::World& world) {
+  std::vector<std::string> names;
+  for (const auto& [id, object] : world.objects())
+    if (!object.name.empty()) names.push_back(object.name);
+  std::ranges::sort(names);
+  return names;
+}
+
+std::string list_json(const speech::Vocabulary& vocabulary, const world::World& world,
+                      const std::vector<speech::Sayable>& sayable) {
+  Json json{{"language", vocabulary.language}, {"commands", Json::array()}};
+  for (const speech::Sayable& it : sayable)
+    json["commands"].push_back(
+        {{"name", it.command}, {"help", it.help}, {"forms", it.forms}, {"sentences", it.sentences}});
+  json["words"] = words_json(vocabulary);
+  json["names"] = names_json(world);
+  return text_of(json);
+}
+
+std::string list_text(const speech::Vocabulary& vocabulary, const std::vector<speech::Sayable>& sayable) {
+  std::string text;
+  for (const speech::Sayable& it : sayable) {
+    text += fmt::format("{}: {}\n", it.command, it.help);
+    for (const std::string& sentence : it.sentences) text += "  " + sentence + "\n";
+  }
+  for (const char* table : {"colour", "size", "shape", "material"}) {
+    std::string words;
+    for (const speech::WordMeaning& word : vocabulary.table(table))
+      words += (words.empty() ? "" : ", ") + word.words;
+    text += fmt::format("Words for {}: {}\n", table, words);
+  }
+  return text;
+}
+
+base::Result<std::string> list(const VoiceOptions& options, StatusLine& status) {
+  const auto talk = Talk::open(options.talk, status);
+  if (!talk) return tl::unexpected(talk.error());
+  speech::Dialogue& dialogue = (*talk)->dialogue();
+  if (options.jsgf) return dialogue.vocabulary().grammar.jsgf(speech::Dialogue::kSentence, "icome");
+  status.say("Trying what can be said");
+  const auto sayable = speech::sayable_now(dialogue);
+  return options.talk.json ? list_json(dialogue.vocabulary(), (*talk)->world(), sayable)
+                           : list_text(dialogue.vocabulary(), sayable);
+}
+
+int check(const VoiceOptions& options) {
+  TalkOptions talk = options.talk;
+  talk.vocabularies.push_back(options.check);
+  const auto vocabulary = vocabulary_of(talk);
+  if (options.talk.json) {
+    Json json{{"file", options.check.string()}, {"valid", bool(vocabulary)}, {"problems", Json::array()}};
+    if (!vocabulary) json["problems"].push_back(vocabulary.error().message);
+    json["commands"] = vocabulary ? vocabulary->commands.size() : 0;
+    const int written = print_answer(text_of(json));
+    return vocabulary ? written : kFailed;
+  }
+  if (!vocabulary) {
+    tell(vocabulary.error().message);
+    return kFailed;
+  }
+  return print_answer(fmt::format("{}: good; {} commands with the built-in ones\n", options.check.string(),
+                                  vocabulary->commands.size()));
+}
+
+}  // namespace
+
+int run_voice(const VoiceOptions& options) {
+  catch_interrupts();
+  if (!options.check.empty()) return check(options);
+  StatusLine status;
+  const auto answer = list(options, status);
+  status.clear();
+  if (!answer) return end_without_result(answer.error(), status);
+  return print_answer(*answer);
+}
+
+}  // namespace icome::apps

@@ -1,0 +1,85 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "speech/dialogue/draft.h"
+#include "speech/dialogue/placing.h"
+#include "speech/words/own_words.h"
+
+namespace icome::speech {
+
+/// The meaning of a sentence in its situation, before anything is done.
+struct Understood {
+  interaction::Value::Fields intent = {};  // {"op": ...}, for people and scripts: objects by name
+  std::string reply = {};                  // a sentence for when it is done
+  std::vector<ObjectId> objects = {};      // spoken of: made, changed or meant
+  std::vector<ObjectId> created = {};
+  std::string question = {};  // not empty: to be answered with yes before it is done
+  /// What is done beside the edits of the draft; none: nothing. May give another reply.
+  std::function<base::Result<std::string>()> deed = nullptr;
+};
+
+/// Objects that the hand has taken by voice.
+struct Held {
+  std::vector<ObjectId> objects = {};
+  bool turns = false;
+  bool by_stage = false;  // it moves them; else they are moved when the hand lets go
+  base::Pose world_from_pointer = base::Pose::Identity();  // when they were taken
+};
+
+/// A sentence as one reading of the grammar takes it, and all that an act needs to understand it.
+struct Reading {
+  const Command& command;
+  const Phrase& phrase;  // of the command
+  Situation situation;
+  References& references;
+  Draft& draft;
+  Stage& stage;
+  interaction::OperationTarget& target;
+  OwnWords& own_words;
+  Held& held;
+
+  const world::World& world() const { return situation.world; }
+  /// The objects of the sentence, or those that it is for where it names none.
+  base::Result<std::vector<ObjectId>> objects();
+  /// The words of a part of the sentence.
+  std::string words_of(const Phrase& part) const;
+};
+
+/// Understands a reading: by its act, or as an operation with parameters of the sentence.
+base::Result<Understood> understand(Reading& reading);
+
+/// "'seat'", "'seat' and 'leg'", "5 things".
+std::string called_all(const world::World& world, const std::vector<ObjectId>& objects);
+/// Their names, for JSON.
+interaction::Value names_value(const world::World& world, const std::vector<ObjectId>& objects);
+/// The text with a large first letter and a full stop.
+std::string as_sentence(std::string text);
+
+// The acts, in one source file for each group.
+base::Result<Understood> act_create(Reading& reading);
+base::Result<Understood> act_copy(Reading& reading);
+base::Result<Understood> act_delete(Reading& reading);
+base::Result<Understood> act_cut(Reading& reading);
+base::Result<Understood> act_name(Reading& reading);
+base::Result<Understood> act_scale(Reading& reading);
+base::Result<Understood> act_move(Reading& reading);
+base::Result<Understood> act_turn(Reading& reading);
+base::Result<Understood> act_grab(Reading& reading);
+base::Result<Understood> act_stop(Reading& reading);
+base::Result<Understood> act_select(Reading& reading);
+base::Result<Understood> act_deselect(Reading& reading);
+base::Result<Understood> act_word(Reading& reading);
+base::Result<Understood> act_forget(Reading& reading);
+base::Result<Understood> act_words(Reading& reading);
+base::Result<Understood> act_undo(Reading& reading);
+base::Result<Understood> act_redo(Reading& reading);
+base::Result<Understood> act_save(Reading& reading);
+base::Result<Understood> act_view(Reading& reading);
+base::Result<Understood> act_menu(Reading& reading);
+base::Result<Understood> act_item(Reading& reading);
+base::Result<Understood> act_close(Reading& reading);
+base::Result<Understood> act_tell(Reading& reading);
+
+}  // namespace icome::speech
