@@ -51,8 +51,8 @@ class Listener {
     Talk& talk = own ? *own : talk_;
     speech::Answer answer;
     answer.heard = heard->sentence();
-    const double least = options_.least_score < 0.0 ? options_.least_score : speech::kLeastScore;
-    if (heard->words.empty() || heard->score < least)
+    const bool is_too_bad = options_.least_score < 0.0 && heard->score < options_.least_score;
+    if (heard->words.empty() || is_too_bad)
       answer.reply = "That was no sentence that I know.";
     else
       answer = talk.dialogue().hear(heard->sentence(), times);

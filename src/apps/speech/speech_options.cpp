@@ -50,8 +50,12 @@ constexpr const char* kListenNotes =
     "where\n"
     "nobody speaks. Without --apply each utterance is understood for the design as it is, and nothing is "
     "done.\n"
-    "What was heard with a score below --least-score is not accepted: it was probably no sentence of the\n"
-    "grammar (icome voice --list). The hand's path has a first line t,x,y,z (s, m in the world) or\n"
+    "What is heard is always the nearest sentence of the grammar (icome voice --list), also of speech that "
+    "is\n"
+    "none; what was heard with a score below --least-score is not accepted. docs/speech.md tells how often "
+    "it\n"
+    "is right, which is not yet often enough to work by. The hand's path has a first line t,x,y,z (s, m in "
+    "the world) or\n"
     "t,x,y,z,dx,dy,dz (where it points); t runs on from one recording to the next, and \"this\" and "
     "\"here\"\n"
     "mean the hand at the moment of the word.\n"
@@ -64,7 +68,8 @@ void add_talk_options(CLI::App& command, TalkOptions& talk) {
   command.add_option("--design", talk.design, "The design that is spoken of, or new (default)")
       ->type_name("FILE");
   command.add_option("--vocabulary", talk.vocabularies, "Words and commands that are added (docs/speech.md)")
-      ->type_name("FILE.toml");
+      ->type_name("FILE.toml")
+      ->allow_extra_args(false);
   command
       .add_option("--words", talk.words,
                   "One's own words for colours and sizes (default: icome/words.toml in ~/.config)")
@@ -104,7 +109,7 @@ void add_speech(CLI::App& app, SpeechOptions& options) {
       ->check(number_range(0.1, 2.0));
   listen
       .add_option("--least-score", options.listen.least_score,
-                  "Score below which an utterance is not accepted (default: docs/speech.md)")
+                  "Score below which an utterance is not accepted (default: none)")
       ->type_name("SCORE")
       ->check(number_range(-100.0, 0.0));
   listen.add_flag("--json", options.listen.talk.json,

@@ -111,12 +111,12 @@ Result<Understood> understand_operation(Reading& reading) {
 }  // namespace
 
 const std::vector<std::string>& act_names() {
-  static const std::vector<std::string> names = [] {
+  static const std::vector<std::string> kNames = [] {
     std::vector<std::string> all(kOfDialogue.begin(), kOfDialogue.end());
     for (const NamedAct& act : kActs) all.emplace_back(act.name);
     return all;
   }();
-  return names;
+  return kNames;
 }
 
 bool is_act(std::string_view name) { return std::ranges::find(act_names(), name) != act_names().end(); }

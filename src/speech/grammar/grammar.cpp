@@ -79,11 +79,12 @@ class JsgfWriter {
     return inner && !inner->empty() ? fmt::format("[{}]", *inner) : std::string();
   }
 
-  /// The definitions of all rules that were referred to.
-  std::string definitions() const {
+  /// The definitions of all rules that were referred to; the main one is public.
+  std::string definitions(std::string_view main) const {
     std::string text;
     for (const auto& [rule, body] : rules_)
-      if (body && !body->empty()) text += fmt::format("<{}> = {};\n", rule, *body);
+      if (body && !body->empty())
+        text += fmt::format("{}<{}> = {};\n", rule == main ? "public " : "", rule, *body);
     return text;
   }
 
@@ -266,9 +267,8 @@ std::set<std::string> Grammar::vocabulary(std::string_view rule) const {
 
 std::string Grammar::jsgf(std::string_view rule, std::string_view name) const {
   JsgfWriter writer(*this);
-  const auto body = writer.written({Pattern::Kind::Rule, std::string(rule), {}});
-  return fmt::format("#JSGF V1.0 UTF-8;\ngrammar {};\npublic <sentence> = {};\n{}", name,
-                     body.value_or("<VOID>"), writer.definitions());
+  writer.written({Pattern::Kind::Rule, std::string(rule), {}});
+  return fmt::format("#JSGF V1.0 UTF-8;\ngrammar {};\n{}", name, writer.definitions(rule));
 }
 
 }  // namespace icome::speech

@@ -14,10 +14,6 @@ namespace icome::speech {
 inline constexpr int kSampleRate = 16000;
 using Sound = std::span<const std::int16_t>;
 
-/// The usual score below which an utterance counts as no sentence of the grammar (docs/speech.md tells how
-/// well).
-inline constexpr double kLeastScore = -3.0;
-
 /// A word that was heard, s from the beginning of the sound.
 struct HeardWord {
   std::string word;
@@ -27,8 +23,8 @@ struct HeardWord {
 /// The best sentence of the grammar for a sound.
 struct Heard {
   std::vector<HeardWord> words = {};  // none: nothing of the grammar
-  /// How well it fits, from its words' sounds alone: log-likelihood below that of the best sounds of any
-  /// kind, a frame of 10 ms, 0 at best.
+  /// How well the sounds of its words fit: the natural logarithm of their likelihood, beside that of the
+  /// best sounds that the search looked at, for a frame of 10 ms; 0 at best.
   double score = 0.0;
 
   std::string sentence() const;

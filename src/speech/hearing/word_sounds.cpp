@@ -94,10 +94,10 @@ std::string sounds_of_word(std::string_view word) {
   // The library has one state for all.
   static std::mutex mutex;
   const std::scoped_lock lock(mutex);
-  static const bool is_there =
+  static const bool kIsThere =
       espeak_Initialize(AUDIO_OUTPUT_RETRIEVAL, 0, nullptr, espeakINITIALIZE_DONT_EXIT) > 0 &&
       espeak_SetVoiceByName("en-us") == EE_OK;
-  if (!is_there) return {};
+  if (!kIsThere) return {};
   const std::string text(word);
   const void* left = text.c_str();
   std::string ipa;

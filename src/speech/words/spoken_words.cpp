@@ -89,9 +89,9 @@ std::vector<std::string> spoken_words(std::string_view sentence,
     begin = text.find_first_not_of(' ', begin);
     if (begin == std::string::npos) break;
     const std::size_t end = std::min(text.find(' ', begin), text.size());
-    std::string word = text.substr(begin, end - begin);
+    const std::string word = text.substr(begin, end - begin);
     const auto other = same.find(word);
-    words.push_back(other == same.end() ? std::move(word) : other->second);
+    words.push_back(other == same.end() ? word : other->second);
     begin = end;
   }
   return words;

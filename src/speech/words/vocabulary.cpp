@@ -196,7 +196,7 @@ class VocabularyReader {
           "act of the dialogue.");
       return;
     }
-    command.rule = "command " + command.name;
+    command.rule = "command-" + command.name;
     to_.grammar.set(command.rule, std::move(forms));
     rule_places_.emplace_back(command.rule, table.place);
     command_places_.emplace_back(command.name, table.place);
@@ -290,9 +290,9 @@ class VocabularyReader {
 }  // namespace
 
 const std::vector<WordMeaning>& Vocabulary::table(std::string_view name) const {
-  static const std::vector<WordMeaning> none;
+  static const std::vector<WordMeaning> kNone;
   const auto found = tables.find(name);
-  return found == tables.end() ? none : found->second;
+  return found == tables.end() ? kNone : found->second;
 }
 
 const Command* Vocabulary::command(std::string_view name) const {
@@ -301,9 +301,9 @@ const Command* Vocabulary::command(std::string_view name) const {
 }
 
 const std::vector<std::string>& live_rules() {
-  static const std::vector<std::string> rules{
+  static const std::vector<std::string> kRules{
       "name", "own-word", "viewpoint", "menu-item", "submenu", "topic", std::string(kSuggestedWords)};
-  return rules;
+  return kRules;
 }
 
 Pattern pattern_of(const std::vector<WordMeaning>& words, bool plural) {

@@ -109,9 +109,9 @@ class TalkRunner {
   }
 
   void expect(const std::string& word, const std::string& rest) {
-    static const std::map<std::string, Answer::State> states{
+    static const std::map<std::string, Answer::State> kStates{
         {"done", Answer::State::Done}, {"asked", Answer::State::Asked}, {"refused", Answer::State::Refused}};
-    if (const auto state = states.find(word); state != states.end()) {
+    if (const auto state = kStates.find(word); state != kStates.end()) {
       EXPECT_EQ(answer_.state, state->second);
       EXPECT_NE(answer_.reply.find(rest), std::string::npos);
     } else if (word == "op") {

@@ -90,9 +90,9 @@ std::set<std::string> all_sentences(const Grammar& grammar, const Pattern& patte
 }
 
 Pattern random_pattern(base::Random& random, int depth) {
-  const char* const kWords[] = {"a", "b", "c"};
+  const char* const words[] = {"a", "b", "c"};
   const auto kind = depth == 0 ? 0 : random.index(5);
-  if (kind == 0) return word_pattern(kWords[random.index(3)]);
+  if (kind == 0) return word_pattern(words[random.index(3)]);
   if (kind == 1) return tag_pattern("t");
   Pattern pattern{kind == 2   ? Pattern::Kind::Choice
                   : kind == 3 ? Pattern::Kind::Sequence
@@ -131,10 +131,8 @@ TEST(Grammar, JsgfLeavesOutRulesWithoutWords) {
   Grammar grammar = grammar_of({{"s", "go to <place> | select [the] <name>"}, {"name", "box | ball"}});
   grammar.set("place", {Pattern::Kind::Choice, {}, {}});
   const std::string text = grammar.jsgf("s", "test");
-  EXPECT_TRUE(text.starts_with("#JSGF V1.0 UTF-8;\ngrammar test;\npublic <sentence> = <s>;\n")) << text;
-  EXPECT_NE(text.find("<s> = select [the] <name>;"), std::string::npos) << text;
-  EXPECT_NE(text.find("<name> = (box | ball);"), std::string::npos) << text;
-  EXPECT_EQ(text.find("place"), std::string::npos) << text;
+  EXPECT_EQ(text,
+            "#JSGF V1.0 UTF-8;\ngrammar test;\n<name> = (box | ball);\npublic <s> = select [the] <name>;\n");
 }
 
 }  // namespace
