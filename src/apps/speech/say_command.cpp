@@ -1,5 +1,8 @@
 #include "apps/speech/say_command.h"
 
+#include <fmt/format.h>
+
+#include <filesystem>
 #include <iostream>
 
 #include "apps/design/design_work.h"
@@ -38,6 +41,9 @@ base::Result<void> hear_all(Talk& talk, const SayOptions& options) {
 }
 
 base::Result<void> say(const SayOptions& options, StatusLine& status) {
+  std::error_code error;
+  if (options.out.has_parent_path() && !std::filesystem::is_directory(options.out.parent_path(), error))
+    return base::fail(fmt::format("{}: there is no such folder", options.out.parent_path().string()));
   if (!options.out.empty())
     if (const auto able = files::check_can_write(options.out); !able) return able;
   base::Result<HandPath> hand = HandPath{};

@@ -10,7 +10,7 @@ namespace {
 constexpr const char* kSayNotes =
     "Examples:\n"
     "  icome say \"three small red spheres\" \"make them yellow\" --out balls.wrl\n"
-    "  icome say --design house.wrl \"what is on the table\" --json\n"
+    "  icome say --design house.wrl \"select the one on the table\" --json\n"
     "  icome say --design house.wrl --pointer 0,0.8,0.1 \"copy this here\" --out house.wrl\n"
     "  icome say --design house.wrl --out new.wrl          sentences from standard input, one a line\n"
     "\n"

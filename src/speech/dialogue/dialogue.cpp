@@ -55,6 +55,11 @@ std::vector<WordMeaning> menu_meanings(const std::vector<MenuWords>& items) {
   return meanings;
 }
 
+std::vector<std::string> polite_words_left_out(std::vector<std::string> words) {
+  std::erase(words, "please");
+  return words;
+}
+
 Pattern rule_pattern(std::string rule) { return {Pattern::Kind::Rule, std::move(rule), {}}; }
 
 }  // namespace
@@ -76,7 +81,11 @@ Dialogue::Dialogue(Vocabulary vocabulary, interaction::OperationTarget& design, 
       materials_(vocabulary_.table("material")),
       design_(design),
       stage_(stage),
-      own_words_(own_words) {}
+      own_words_(own_words) {
+  for (const Command& command : vocabulary_.commands)
+    fixed_words_.merge(vocabulary_.grammar.vocabulary(command.rule));
+  for (const WordMeaning& word : vocabulary_.table(kSuggestedWords)) fixed_words_.erase(word.words);
+}
 
 // ---- What can be said now ---------------------------------------------------------------------------------
 
@@ -87,16 +96,23 @@ const Vocabulary& Dialogue::vocabulary() {
 
 void Dialogue::refresh_names() {
   std::vector<std::pair<std::string, ObjectId>> names, viewpoints;
+  Grammar& grammar = vocabulary_.grammar;
+  grammar.set("name", pattern_of({}, false));
+  // "All" and "everything" are what they say, whatever is called so.
+  const auto is_taken = [&](const std::string& name) {
+    const std::vector<std::string> words = spoken_words(name);
+    return is_noun(vocabulary_, joined_words(words)) || !grammar.parse("several", words).empty() ||
+           !grammar.parse("pronoun", words).empty();
+  };
   const world::World& world = design_.world();
   for (const auto& [id, object] : world.objects()) {
     const bool looks = object.fixture && std::holds_alternative<world::Viewpoint>(*object.fixture);
     if (looks)
       viewpoints.emplace_back(object.name, id);
-    else if (!object.name.empty() && !is_noun(vocabulary_, joined_words(spoken_words(object.name))))
+    else if (!object.name.empty() && names.size() < kMostNames && !is_taken(object.name))
       names.emplace_back(object.name, id);
   }
   std::ranges::sort(names, {}, [](const auto& it) { return it.second; });
-  names.resize(std::min(names.size(), kMostNames));
   vocabulary_.grammar.set("name", pattern_of(said_names(std::move(names)), false));
   vocabulary_.grammar.set("viewpoint", pattern_of(said_names(std::move(viewpoints)), false));
 }
@@ -152,7 +168,8 @@ Dialogue::Trial Dialogue::try_reading(const Command& command, const Phrase& phra
   const Situation situation{vocabulary_, design_.world(), stage_, memory_, words, time_of, choices, targets_};
   References references(situation);
   trial.draft.emplace(design_.world(), design_.ids());
-  Reading reading{command, phrase, situation, references, *trial.draft, stage_, design_, own_words_, held_};
+  Reading reading{command, phrase,  situation,  references, *trial.draft,
+                  stage_,  design_, own_words_, held_,      fixed_words_};
   trial.meaning = understand(reading);
   if (!trial.meaning) trial.ambiguity = references.ambiguity();
   return trial;
@@ -264,9 +281,11 @@ std::optional<Answer> Dialogue::hear_choice(const std::vector<std::string>& word
     choice.choices[choice.ambiguity.begin] = *chosen;
     return hear_words(choice.words, choice.times, choice.choices);
   }
-  // What is none of the candidates may be another sentence.
-  const bool is_sentence =
-      std::ranges::any_of(try_all(words, times, {}), [](const Trial& it) { return bool(it.meaning); });
+  // A description of none of the candidates may be another sentence.
+  const bool describes =
+      std::ranges::all_of(readings, [](const Phrase& phrase) { return phrase.part("one") != nullptr; });
+  const bool is_sentence = describes && std::ranges::any_of(try_all(words, times, {}),
+                                                            [](const Trial& it) { return bool(it.meaning); });
   if (!why || is_sentence) return std::nullopt;
   return Answer{.state = Answer::State::Asked,
                 .intent = {{"op", "which"}},
@@ -285,6 +304,13 @@ std::optional<Answer> Dialogue::hear_answer(const std::vector<std::string>& word
     confirmation_.reset();
     return Answer{.state = Answer::State::Done, .intent = {{"op", "no"}}, .reply = "Nothing is changed."};
   }
+  if (choice_ && says("yes")) {
+    const ViewerAxes axes(stage_.view());
+    return Answer{.state = Answer::State::Asked,
+                  .intent = {{"op", "which"}},
+                  .reply = question_of(choice_->ambiguity, design_.world(), axes),
+                  .candidates = choice_->ambiguity.candidates};
+  }
   if (choice_) {
     if (auto answer = hear_choice(words, times)) return answer;
     choice_.reset();  // another sentence instead
@@ -301,7 +327,7 @@ std::optional<Answer> Dialogue::hear_answer(const std::vector<std::string>& word
 }
 
 Answer Dialogue::hear(std::string_view sentence, const WordTimes& times) {
-  const std::vector<std::string> words = spoken_words(sentence, vocabulary_.same);
+  const std::vector<std::string> words = polite_words_left_out(spoken_words(sentence, vocabulary_.same));
   refresh();
   follow_selection();
   Answer answer;

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -94,6 +95,7 @@ class Dialogue {
 
   Vocabulary vocabulary_;
   std::vector<WordMeaning> colours_, sizes_, materials_;  // of the language
+  std::set<std::string> fixed_words_;  // of the language, but for names that people often choose
   interaction::OperationTarget& design_;
   Stage& stage_;
   OwnWords& own_words_;

@@ -249,10 +249,11 @@ Result<Understood> act_cut(Reading& reading) {
 
 Result<Understood> act_name(Reading& reading) {
   const std::string name = reading.phrase.part(kAnyWords)->tag();
+  if (const std::string why = reading.why_no_name(name); !why.empty()) return fail(why);
   const auto objects = reading.objects();
   if (!objects) return tl::unexpected(objects.error());
   if (objects->size() != 1)
-    return fail(fmt::format("A name is for one thing, and that are {}.", objects->size()));
+    return fail(fmt::format("A name is for one thing, and these are {}.", objects->size()));
   const auto done = reading.draft.perform(
       {{"op", "rename"}, {"object", fmt::format("#{}", objects->front().value)}, {"name", name}});
   if (!done) return tl::unexpected(done.error());

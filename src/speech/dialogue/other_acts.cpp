@@ -109,6 +109,7 @@ Result<Understood> act_deselect(Reading& reading) {
 
 Result<Understood> act_word(Reading& reading) {
   const std::string name = reading.phrase.part(kAnyWords)->tag();
+  if (const std::string why = reading.why_no_name(name); !why.empty()) return fail(why);
   // Of what the hand touches, what is selected, or what was spoken of.
   const std::size_t word = reading.phrase.begin;
   auto objects = reading.references.unsaid(word);
@@ -145,7 +146,8 @@ Result<Understood> act_forget(Reading& reading) {
 Result<Understood> act_words(Reading& reading) {
   const OwnWords& own = reading.own_words;
   std::string text = words_list("Colours", own.colours()) + words_list("Sizes", own.sizes());
-  if (text.empty()) text = "You have no words of your own.";
+  if (text.empty()) text = "You have no words of your own. ";
+  text.pop_back();
   return Understood{.intent = {{"op", "words"}}, .reply = as_sentence(text)};
 }
 
@@ -232,6 +234,7 @@ Result<Understood> act_tell(Reading& reading) {
   } else if (const Phrase* object = phrase.part("object")) {
     const auto found = reading.references.objects(*object);
     if (!found) return tl::unexpected(found.error());
+    if (found->empty()) return fail("There is nothing in the design.");
     meaning.objects = *found;
   } else {
     const auto id = phrase.has("this") ? reading.references.touched(phrase.begin)

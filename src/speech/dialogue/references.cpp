@@ -9,6 +9,7 @@
 
 #include "base/parse_number.h"
 #include "interaction/operations/object_frames.h"
+#include "speech/words/spoken_words.h"
 
 namespace icome::speech {
 namespace {
@@ -233,9 +234,21 @@ std::vector<ObjectId> References::universe(const Phrase& phrase) const {
       if (!object.geometry && !object.children.empty()) objects.push_back(id);
     std::ranges::sort(objects);
   } else if (!noun.empty()) {
-    std::erase_if(objects, [&](ObjectId id) { return shape_kind(at_.world, id) != noun; });
+    std::erase_if(objects,
+                  [&](ObjectId id) { return shape_kind(at_.world, id) != noun && !is_called(id, noun); });
   }
   return objects;
+}
+
+/// A mesh that is called a box, as other programs do, counts as one.
+bool References::is_called(ObjectId id, const std::string& noun) const {
+  const auto& shapes = at_.vocabulary.table("shape");
+  const std::string kind = shape_kind(at_.world, id);
+  if (std::ranges::find(shapes, kind, &WordMeaning::meaning) != shapes.end()) return false;
+  const std::vector<std::string> name = spoken_words(at_.world.find(id)->name);
+  return std::ranges::any_of(shapes, [&](const WordMeaning& word) {
+    return word.meaning == noun && std::ranges::find(name, word.words) != name.end();
+  });
 }
 
 bool References::has_colour(ObjectId id, const std::string& colour) const {
@@ -499,7 +512,9 @@ References::Found References::answer(const Phrase& phrase, const std::vector<Obj
   if (phrase.has("lower")) return outermost("lowest");
   if (phrase.has("near")) return outermost("nearest");
   if (phrase.has("far")) return outermost("farthest");
-  if (phrase.has("all")) return ordered;
+  if (phrase.has("both") && ordered.size() != 2)
+    return fail(fmt::format("There are {} of them.", ordered.size()));
+  if (phrase.has("all") || phrase.has("both")) return ordered;
   if (const Phrase* superlative = phrase.part("superlative")) return outermost(superlative->tag().c_str());
   if (const Phrase* ordinal = phrase.part("ordinal"))
     return numbered(base::parse_number<double>(ordinal->tag()).value_or(0.0));

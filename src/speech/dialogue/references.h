@@ -93,6 +93,7 @@ class References {
   base::Result<void> keep_related(std::vector<ObjectId>& objects, const Phrase& relation);
   void keep_looking_so(std::vector<ObjectId>& objects, const Phrase& looks) const;
   void keep_sized(std::vector<ObjectId>& objects, const std::string& size) const;
+  bool is_called(ObjectId id, const std::string& noun) const;
   bool has_colour(ObjectId id, const std::string& colour) const;
   bool has_material(ObjectId id, const std::string& material) const;
   void keep_outermost(std::vector<ObjectId>& objects, const std::string& how, std::size_t count) const;

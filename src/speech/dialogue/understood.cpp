@@ -10,6 +10,7 @@
 #include "interaction/operations/object_frames.h"
 #include "speech/dialogue/acts.h"
 #include "speech/dialogue/amounts.h"
+#include "speech/words/spoken_words.h"
 
 namespace icome::speech {
 namespace {
@@ -134,6 +135,14 @@ Result<std::vector<ObjectId>> Reading::objects() {
   auto found = said ? references.objects(*said) : references.unsaid(phrase.begin);
   if (found && found->empty()) return fail("There is nothing in the design.");
   return found;
+}
+
+std::string Reading::why_no_name(const std::string& words) const {
+  const std::vector<std::string> each = spoken_words(words);
+  if (each.front() == "the") return "A name does not begin with 'the'.";
+  const bool all_fixed =
+      std::ranges::all_of(each, [this](const std::string& word) { return fixed_words.contains(word); });
+  return all_fixed ? fmt::format("'{}' means something else already; choose another word.", words) : "";
 }
 
 std::string Reading::words_of(const Phrase& part) const {

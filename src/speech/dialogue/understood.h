@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -39,10 +40,13 @@ struct Reading {
   interaction::OperationTarget& target;
   OwnWords& own_words;
   Held& held;
+  const std::set<std::string>& fixed_words;  // that mean something by themselves, whatever the design
 
   const world::World& world() const { return situation.world; }
   /// The objects of the sentence, or those that it is for where it names none.
   base::Result<std::vector<ObjectId>> objects();
+  /// Why words cannot be a name or a word of one's own: they mean something already. Empty where they can.
+  std::string why_no_name(const std::string& words) const;
   /// The words of a part of the sentence.
   std::string words_of(const Phrase& part) const;
 };

@@ -201,7 +201,8 @@ Result<std::unique_ptr<Recogniser>> make_sphinx_recogniser() {
   const std::string dictionary = std::string(kModel) + "/cmudict-en-us.dict";
   std::unique_ptr<cmd_ln_t, FreeConfig> config(
       cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", hmm.c_str(), "-dict", dictionary.c_str(), "-cmn", "batch",
-                  "-remove_silence", "no", "-beam", "1e-80", "-pbeam", "1e-80", "-wbeam", "1e-60", nullptr));
+                  "-remove_silence", "no", "-dither", "yes", "-seed", "1", "-beam", "1e-80", "-pbeam",
+                  "1e-80", "-wbeam", "1e-60", nullptr));
   if (!config) return fail("the recogniser does not take its settings");
   std::unique_ptr<ps_decoder_t, FreeDecoder> decoder(ps_init(config.get()));
   if (!decoder) return fail(fmt::format("the recogniser cannot read the model in {}", kModel));

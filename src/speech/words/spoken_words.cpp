@@ -52,6 +52,9 @@ std::string spelled_out(std::string_view sentence) {
   std::string text;
   for (std::size_t i = 0; i < sentence.size();) {
     const char letter = sentence[i];
+    const bool is_minus = letter == '-' && i + 1 < sentence.size() && is_digit(sentence[i + 1]) &&
+                          (i == 0 || !is_spoken(sentence[i - 1]));
+    if (is_minus) text += "minus";
     if (is_digit(letter)) {
       std::size_t end = i;
       while (end < sentence.size() && is_digit(sentence[end])) ++end;
