@@ -231,6 +231,10 @@ Result<Understood> act_tell(Reading& reading) {
   }
   if (phrase.has("selected")) {
     meaning.objects = reading.stage.selection();
+  } else if (const Phrase* relation = phrase.part("relation")) {
+    const auto found = reading.references.related(*relation);
+    if (!found) return tl::unexpected(found.error());
+    meaning.objects = *found;
   } else if (const Phrase* object = phrase.part("object")) {
     const auto found = reading.references.objects(*object);
     if (!found) return tl::unexpected(found.error());

@@ -449,6 +449,12 @@ References::Found References::described(const Phrase& phrase, const Phrase* rela
   return is_one ? the_one(phrase, std::move(fitting)) : several(phrase, std::move(fitting));
 }
 
+References::Found References::related(const Phrase& relation) {
+  std::vector<ObjectId> objects = speakable_objects(at_.world, true);
+  if (const auto kept = keep_related(objects, relation); !kept) return tl::unexpected(kept.error());
+  return objects;
+}
+
 std::vector<ObjectId> References::alike(const Phrase& phrase) {
   std::vector<ObjectId> fitting = universe(phrase);
   if (const Phrase* looks = phrase.part("looks")) keep_looking_so(fitting, *looks);
@@ -538,8 +544,8 @@ std::string question_of(const Ambiguity& ambiguity, const World& world, const Vi
   const std::vector<ObjectId>& all = ambiguity.candidates;
   constexpr std::size_t kMostByPlace = 3;
   if (all.size() > kMostByPlace)
-    return fmt::format("Which of the {} that are a {}? Say a number from 1 on the left to {} on the right.",
-                       all.size(), ambiguity.noun, all.size());
+    return fmt::format("Which of the {}? Say a number from 1 on the left to {} on the right.", all.size(),
+                       all.size());
   std::array<std::string, 3> sides{"left", "middle", "right"};
   double widest = 0.0;
   const auto try_axis = [&](const Vector3& axis, std::array<std::string, 3> words) {

@@ -64,6 +64,8 @@ class References {
   base::Result<std::vector<ObjectId>> unsaid(std::size_t word);
   /// The objects that look as a phrase of the rule many says; none where there are none.
   std::vector<ObjectId> alike(const Phrase& phrase);
+  /// The things that lie as a phrase of the rule relation says. Fails as objects().
+  base::Result<std::vector<ObjectId>> related(const Phrase& relation);
   /// The candidates that an answer to "Which one?" means. Fails where it is none of them.
   base::Result<std::vector<ObjectId>> answer(const Phrase& phrase, const std::vector<ObjectId>& candidates);
 
