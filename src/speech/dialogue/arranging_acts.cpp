@@ -150,7 +150,9 @@ Result<Understood> act_move(Reading& reading) {
   if (reading.phrase.has("down-alone")) return move_along(reading, *it, -axes.up, "down");
   if (const Phrase* direction = reading.phrase.part("direction"))
     return move_along(reading, *it, direction_of(*direction, axes), way_words(*direction));
-  const Phrase& where = *reading.phrase.part("where");
+  const auto part = reading.needed("where");
+  if (!part) return tl::unexpected(part.error());
+  const Phrase& where = **part;
   const auto middle = said_middle(where, it->bounds, reading.references, reading.situation, it->objects);
   if (!middle) return tl::unexpected(middle.error());
   return performed(reading, it->objects, "move", {{"by", vector_value(*middle - it->bounds.center())}},
@@ -195,9 +197,9 @@ Result<Understood> act_grab(Reading& reading) {
                                           called_all(reading.world(), it->objects)));
   Held& held = reading.held;
   Stage& stage = reading.stage;
-  meaning.deed = [&held, &stage, hand, turns, objects = it->objects]() -> Result<std::string> {
+  meaning.deed = [&held, &stage, hand, turns, objects = it->objects]() -> Result<void> {
     held = {objects, turns, stage.take(objects, turns), hand->world_from_pointer};
-    return std::string();
+    return {};
   };
   return meaning;
 }
@@ -215,10 +217,10 @@ Result<Understood> act_stop(Reading& reading) {
   }
   meaning.objects = held.objects;
   Stage& stage = reading.stage;
-  meaning.deed = [&held, &stage]() -> Result<std::string> {
+  meaning.deed = [&held, &stage]() -> Result<void> {
     stage.let_go();
     held = {};
-    return std::string();
+    return {};
   };
   return meaning;
 }

@@ -55,9 +55,13 @@ std::vector<WordMeaning> menu_meanings(const std::vector<MenuWords>& items) {
   return meanings;
 }
 
-std::vector<std::string> polite_words_left_out(std::vector<std::string> words) {
-  std::erase(words, "please");
-  return words;
+/// The words without "please", and their times.
+void leave_out_politeness(std::vector<std::string>& words, WordTimes& times) {
+  for (std::size_t i = words.size(); i-- > 0;) {
+    if (words[i] != "please") continue;
+    words.erase(words.begin() + std::ptrdiff_t(i));
+    if (i < times.words.size()) times.words.erase(times.words.begin() + std::ptrdiff_t(i));
+  }
 }
 
 Pattern rule_pattern(std::string rule) { return {Pattern::Kind::Rule, std::move(rule), {}}; }
@@ -100,19 +104,26 @@ void Dialogue::refresh_names() {
   grammar.set("name", pattern_of({}, false));
   // "All" and "everything" are what they say, whatever is called so.
   const auto is_taken = [&](const std::string& name) {
+    const auto [known, is_new] = taken_names_.try_emplace(name);
+    if (!is_new) return known->second;
     const std::vector<std::string> words = spoken_words(name);
-    return is_noun(vocabulary_, joined_words(words)) || !grammar.parse("several", words).empty() ||
-           !grammar.parse("pronoun", words).empty();
+    return known->second = is_noun(vocabulary_, joined_words(words)) ||
+                           !grammar.parse("several", words).empty() ||
+                           !grammar.parse("pronoun", words).empty();
   };
   const world::World& world = design_.world();
-  for (const auto& [id, object] : world.objects()) {
+  std::vector<ObjectId> ids;
+  for (const auto& [id, object] : world.objects())
+    if (!object.name.empty()) ids.push_back(id);
+  std::ranges::sort(ids);
+  for (const ObjectId id : ids) {
+    const world::PhysicalObject& object = *world.find(id);
     const bool looks = object.fixture && std::holds_alternative<world::Viewpoint>(*object.fixture);
     if (looks)
       viewpoints.emplace_back(object.name, id);
-    else if (!object.name.empty() && names.size() < kMostNames && !is_taken(object.name))
+    else if (names.size() < kMostNames && !is_taken(object.name))
       names.emplace_back(object.name, id);
   }
-  std::ranges::sort(names, {}, [](const auto& it) { return it.second; });
   vocabulary_.grammar.set("name", pattern_of(said_names(std::move(names)), false));
   vocabulary_.grammar.set("viewpoint", pattern_of(said_names(std::move(viewpoints)), false));
 }
@@ -191,18 +202,12 @@ std::vector<Dialogue::Trial> Dialogue::try_all(const std::vector<std::string>& w
 Answer Dialogue::perform(Understood meaning, const world::Edit& edit, const std::string& title,
                          std::vector<Value> operations) {
   Answer answer{.intent = std::move(meaning.intent), .reply = std::move(meaning.reply)};
-  if (!title.empty())
-    if (const auto done = design_.act(edit, title); !done) {
-      answer.reply = as_sentence(done.error().message);
-      return answer;
-    }
-  if (meaning.deed) {
-    const auto done = meaning.deed();
-    if (!done) {
-      answer.reply = as_sentence(done.error().message);
-      return answer;
-    }
-    if (!done->empty()) answer.reply = *done;
+  Result<void> done;
+  if (meaning.deed) done = meaning.deed();
+  if (done && !title.empty()) done = design_.act(edit, title);
+  if (!done) {
+    answer.reply = as_sentence(done.error().message);
+    return answer;
   }
   answer.state = Answer::State::Done;
   answer.operations = std::move(operations);
@@ -223,7 +228,7 @@ Answer Dialogue::settle(Trial trial, const std::vector<std::string>& words, cons
     answer.state = Answer::State::Asked;
     answer.intent = {{"op", "which"}};
     answer.candidates = trial.ambiguity->candidates;
-    choice_ = Choice{words, times, choices, *trial.ambiguity, trial.command->name};
+    choice_ = Choice{words, times, choices, *trial.ambiguity};
     return answer;
   }
   Understood meaning = std::move(*trial.meaning);
@@ -249,21 +254,25 @@ Answer Dialogue::hear_words(const std::vector<std::string>& words, const WordTim
                             const Choices& choices) {
   std::vector<Trial> trials = try_all(words, times, choices);
   if (trials.empty()) return {.reply = not_understood(words)};
-  const std::string& does = trials.back().command->does;
-  if (does == "repeat" && !last_done_.empty()) {
-    const std::vector<std::string> again = last_done_;
-    Answer answer = hear_words(again, {.now = times.now}, {});
-    return answer;
+  // The reading that can be done is the last; else one of the dialogue's own, or the first that asks, or the
+  // first that says why not.
+  const auto first = [&](const auto& is_it) { return std::ranges::find_if(trials, is_it); };
+  auto chosen = first([](const Trial& it) { return bool(it.meaning); });
+  if (chosen == trials.end()) {
+    const auto repeats = first([](const Trial& it) { return it.command->does == "repeat"; });
+    if (repeats != trials.end() && !last_done_.empty())
+      return hear_words(std::vector(last_done_), {.now = times.now}, {});
+    const auto helps = first([](const Trial& it) { return it.command->does == "help"; });
+    if (helps != trials.end()) return help(helps->phrase);
+    chosen = first([](const Trial& it) { return it.ambiguity.has_value(); });
   }
-  if (does == "help") return help(trials.back().phrase);
-  // Else a question of the first reading that has one, or the first reason why not.
-  const auto meant = std::ranges::find_if(trials, [](const Trial& it) { return bool(it.meaning); });
-  const auto asks = std::ranges::find_if(trials, [](const Trial& it) { return it.ambiguity.has_value(); });
-  const auto chosen = meant != trials.end() ? meant : asks != trials.end() ? asks : trials.begin();
+  if (chosen == trials.end()) chosen = trials.begin();
   return settle(std::move(*chosen), words, times, choices);
 }
 
 std::optional<Answer> Dialogue::hear_choice(const std::vector<std::string>& words, const WordTimes& times) {
+  std::erase_if(choice_->ambiguity.candidates, [this](ObjectId id) { return !design_.world().find(id); });
+  if (choice_->ambiguity.candidates.empty()) return std::nullopt;
   const auto readings = vocabulary_.grammar.parse("answer", words);
   const std::function<double(std::size_t)> time_of = [&](std::size_t word) { return times.of(word); };
   std::optional<std::string> why;
@@ -326,8 +335,10 @@ std::optional<Answer> Dialogue::hear_answer(const std::vector<std::string>& word
   return perform(std::move(asked.meaning), asked.edit, asked.title, std::move(asked.operations));
 }
 
-Answer Dialogue::hear(std::string_view sentence, const WordTimes& times) {
-  const std::vector<std::string> words = polite_words_left_out(spoken_words(sentence, vocabulary_.same));
+Answer Dialogue::hear(std::string_view sentence, const WordTimes& said_at) {
+  std::vector<std::string> words = spoken_words(sentence, vocabulary_.same);
+  WordTimes times = said_at;
+  leave_out_politeness(words, times);
   refresh();
   follow_selection();
   Answer answer;
@@ -346,7 +357,6 @@ Answer Dialogue::hear(std::string_view sentence, const WordTimes& times) {
 
 bool Dialogue::can_be_said(std::string_view sentence) {
   const std::vector<std::string> words = spoken_words(sentence, vocabulary_.same);
-  refresh();
   if (choice_ && !vocabulary_.grammar.parse("answer", words).empty()) return true;
   const auto trials = try_all(words, {}, {});
   return std::ranges::any_of(trials, [this](const Trial& it) {

@@ -3,6 +3,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "speech/dialogue/understood.h"
@@ -40,7 +41,7 @@ class Dialogue {
   Dialogue(Vocabulary vocabulary, interaction::OperationTarget& design, Stage& stage, OwnWords& own_words);
 
   /// Understands the sentence and does it.
-  Answer hear(std::string_view sentence, const WordTimes& times = {});
+  Answer hear(std::string_view sentence, const WordTimes& said_at = {});
 
   /// The vocabulary with what can be said now: names of the design, items of menus, own words. Valid until
   /// the next call of any function.
@@ -48,7 +49,8 @@ class Dialogue {
   /// The rule of vocabulary().grammar that matches whatever is understood now, also answers to a question.
   static constexpr std::string_view kSentence = "sentence";
 
-  /// Would the sentence be understood and done, or asked about, now? Nothing is changed.
+  /// Would the sentence be understood and done, or asked about? Nothing is changed. By what could be said at
+  /// the last call of another function.
   bool can_be_said(std::string_view sentence);
 
   /// Is a question open: "Which one?", or one for yes or no?
@@ -64,7 +66,6 @@ class Dialogue {
     WordTimes times;
     Choices choices;
     Ambiguity ambiguity;
-    std::string command;
   };
   struct Confirmation {
     Understood meaning;
@@ -96,6 +97,8 @@ class Dialogue {
   Vocabulary vocabulary_;
   std::vector<WordMeaning> colours_, sizes_, materials_;  // of the language
   std::set<std::string> fixed_words_;  // of the language, but for names that people often choose
+  std::unordered_map<std::string, bool>
+      taken_names_;  // is a name of an object something else in the language?
   interaction::OperationTarget& design_;
   Stage& stage_;
   OwnWords& own_words_;

@@ -57,6 +57,7 @@ struct NewThings {
 Result<NewThings> said_things(const Phrase& said) {
   NewThings things;
   const Phrase* const shape = said.part("shape") ? said.part("shape") : said.part("shapes");
+  if (shape == nullptr) return fail("It is not said what shape is to be made.");
   things.shape = shape->tag();
   if (const Phrase* number = said.part("number")) {
     const double count = number_of(*number);
@@ -147,7 +148,9 @@ bool is_everything(const world::World& world, const std::vector<ObjectId>& objec
 }  // namespace
 
 Result<Understood> act_create(Reading& reading) {
-  const Phrase& said = *reading.phrase.part("new");
+  const auto part = reading.needed("new");
+  if (!part) return tl::unexpected(part.error());
+  const Phrase& said = **part;
   const auto things = said_things(said);
   if (!things) return tl::unexpected(things.error());
   const auto own = own_bounds(reading, *things);
@@ -230,6 +233,7 @@ Result<Understood> act_delete(Reading& reading) {
 
 Result<Understood> act_cut(Reading& reading) {
   const auto parts = reading.phrase.all("object");
+  if (parts.size() != 2) return fail("Say what is cut out of what.");
   const auto what = reading.references.single(*parts[0]);
   if (!what) return tl::unexpected(what.error());
   const auto from = reading.references.single(*parts[1]);
@@ -248,7 +252,9 @@ Result<Understood> act_cut(Reading& reading) {
 }
 
 Result<Understood> act_name(Reading& reading) {
-  const std::string name = reading.phrase.part(kAnyWords)->tag();
+  const auto words = reading.needed(kAnyWords);
+  if (!words) return tl::unexpected(words.error());
+  const std::string name = (*words)->tag();
   if (const std::string why = reading.why_no_name(name); !why.empty()) return fail(why);
   const auto objects = reading.objects();
   if (!objects) return tl::unexpected(objects.error());

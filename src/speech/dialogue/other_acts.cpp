@@ -25,9 +25,9 @@ std::string hex_of(const world::Colour& colour) {
 /// A sentence whose effect is a deed of the stage.
 Understood deed_of(const char* op, std::string reply, std::function<Result<void>()> deed) {
   Understood meaning{.intent = {{"op", op}}, .reply = std::move(reply)};
-  meaning.deed = [deed = std::move(deed)]() -> Result<std::string> {
+  meaning.deed = [deed = std::move(deed)]() -> Result<void> {
     const auto done = deed();
-    return done ? Result<std::string>(std::string()) : tl::unexpected(done.error());
+    return done ? Result<void>() : tl::unexpected(done.error());
   };
   return meaning;
 }
@@ -38,9 +38,9 @@ Understood selecting(Reading& reading, std::vector<ObjectId> wanted, const char*
   meaning.intent = {{"op", op}, {"objects", names_value(reading.world(), wanted)}};
   meaning.reply = as_sentence(wanted.empty() ? "Nothing is selected" : called_all(reading.world(), wanted));
   Stage& stage = reading.stage;
-  meaning.deed = [&stage, wanted = std::move(wanted)]() -> Result<std::string> {
+  meaning.deed = [&stage, wanted = std::move(wanted)]() -> Result<void> {
     stage.select(wanted);
-    return std::string();
+    return {};
   };
   return meaning;
 }
@@ -73,9 +73,9 @@ Result<Understood> name_colour(Reading& reading, ObjectId object, const std::str
                      .reply = as_sentence(fmt::format("The colour {} is known now", name)),
                      .objects = objects};
   OwnWords& own = reading.own_words;
-  meaning.deed = [&own, name, hex]() -> Result<std::string> {
+  meaning.deed = [&own, name, hex]() -> Result<void> {
     const auto done = own.add_colour(name, hex);
-    return done ? Result<std::string>(std::string()) : tl::unexpected(done.error());
+    return done ? Result<void>() : tl::unexpected(done.error());
   };
   return meaning;
 }
@@ -108,7 +108,9 @@ Result<Understood> act_deselect(Reading& reading) {
 }
 
 Result<Understood> act_word(Reading& reading) {
-  const std::string name = reading.phrase.part(kAnyWords)->tag();
+  const auto words = reading.needed(kAnyWords);
+  if (!words) return tl::unexpected(words.error());
+  const std::string name = (*words)->tag();
   if (const std::string why = reading.why_no_name(name); !why.empty()) return fail(why);
   // Of what the hand touches, what is selected, or what was spoken of.
   const std::size_t word = reading.phrase.begin;
@@ -124,21 +126,23 @@ Result<Understood> act_word(Reading& reading) {
       .reply = as_sentence(fmt::format("The size {} is known now: {}", name, length_words(size))),
       .objects = {object}};
   OwnWords& own = reading.own_words;
-  meaning.deed = [&own, name, size]() -> Result<std::string> {
+  meaning.deed = [&own, name, size]() -> Result<void> {
     const auto done = own.add_size(name, size);
-    return done ? Result<std::string>(std::string()) : tl::unexpected(done.error());
+    return done ? Result<void>() : tl::unexpected(done.error());
   };
   return meaning;
 }
 
 Result<Understood> act_forget(Reading& reading) {
-  const std::string name = reading.words_of(*reading.phrase.find("own-word"));
+  const auto word = reading.needed("own-word");
+  if (!word) return tl::unexpected(word.error());
+  const std::string name = reading.words_of(**word);
   OwnWords& own = reading.own_words;
   Understood meaning{.intent = {{"op", "forget"}, {"word", name}},
                      .reply = as_sentence("Forgotten: " + name)};
-  meaning.deed = [&own, name]() -> Result<std::string> {
+  meaning.deed = [&own, name]() -> Result<void> {
     const auto done = own.forget(name);
-    return done ? Result<std::string>(std::string()) : tl::unexpected(done.error());
+    return done ? Result<void>() : tl::unexpected(done.error());
   };
   return meaning;
 }
@@ -171,12 +175,16 @@ Result<Understood> act_save(Reading& reading) {
 
 Result<Understood> act_view(Reading& reading) {
   if (!reading.stage.abilities().goes) return fail("There is no view here that could go anywhere.");
-  const Phrase& view = *reading.phrase.part("view");
+  const auto part = reading.needed("view");
+  if (!part) return tl::unexpected(part.error());
+  const Phrase& view = **part;
   ObjectId to{};
   if (const Phrase* point = view.part("viewpoint")) {
     to = ObjectId{base::parse_number<std::uint64_t>(std::string_view(point->tag()).substr(1)).value_or(0)};
   } else {
-    const auto object = reading.references.single(*view.part("object"));
+    const Phrase* const thing = view.part("object");
+    if (thing == nullptr) return fail("The vocabulary's <view> says no place that is known.");
+    const auto object = reading.references.single(*thing);
     if (!object) return tl::unexpected(object.error());
     to = *object;
   }
@@ -199,7 +207,9 @@ Result<Understood> act_menu(Reading& reading) {
 }
 
 Result<Understood> act_item(Reading& reading) {
-  const Phrase& item = *reading.phrase.find("menu-item");
+  const auto part = reading.needed("menu-item");
+  if (!part) return tl::unexpected(part.error());
+  const Phrase& item = **part;
   Stage& stage = reading.stage;
   Understood meaning = deed_of("choose", as_sentence(reading.words_of(item)),
                                [&stage, name = item.tag()] { return stage.choose_item(name); });

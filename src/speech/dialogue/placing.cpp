@@ -95,7 +95,13 @@ Result<Vector3> said_middle(const Phrase& where, const Bounds& bounds, Reference
     if (!hand) return fail("There is no hand here to show the place.");
     return Vector3(hand->world_from_pointer.translation());
   }
-  const Phrase& beside = *where.part("beside");
+  const auto said = [&](const Phrase& phrase) {
+    const std::size_t sides = phrase.has("between") ? 2 : phrase.part("side") ? 1 : 0;
+    return sides > 0 && phrase.all("reference").size() == sides;
+  };
+  const Phrase* const known = where.part("beside");
+  if (known == nullptr || !said(*known)) return fail("The vocabulary's <where> says no place that is known.");
+  const Phrase& beside = *known;
   std::vector<Bounds> boxes;
   for (const Phrase* part : beside.all("reference")) {
     const auto id = references.single(*part);

@@ -189,6 +189,7 @@ References::Found References::other_than_last() const {
 }
 
 References::Found References::pronoun(const Phrase& phrase) {
+  if (const auto chosen = at_.choices.find(phrase.begin); chosen != at_.choices.end()) return chosen->second;
   if (phrase.has("selection")) {
     auto selected = selection();
     if (selected.empty()) return fail("Nothing is selected.");
@@ -332,6 +333,8 @@ Result<void> References::keep_related(std::vector<ObjectId>& objects, const Phra
     });
   };
   const Phrase* const side = relation.part("side");
+  if (references.size() != (relation.has("between") ? 2U : 1U) || (!side && !relation.has("between")))
+    return fail("The vocabulary's <relation> says no place that is known.");
   std::erase_if(objects, [&](ObjectId id) {
     if (!is_apart(id)) return true;
     if (relation.has("between"))

@@ -137,6 +137,11 @@ Result<std::vector<ObjectId>> Reading::objects() {
   return found;
 }
 
+Result<const Phrase*> Reading::needed(std::string_view rule) const {
+  if (const Phrase* part = phrase.find(rule)) return part;
+  return fail(fmt::format("The vocabulary's command '{}' has no <{}> in this form.", command.name, rule));
+}
+
 std::string Reading::why_no_name(const std::string& words) const {
   const std::vector<std::string> each = spoken_words(words);
   if (each.front() == "the") return "A name does not begin with 'the'.";

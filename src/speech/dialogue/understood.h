@@ -17,8 +17,8 @@ struct Understood {
   std::vector<ObjectId> objects = {};      // spoken of: made, changed or meant
   std::vector<ObjectId> created = {};
   std::string question = {};  // not empty: to be answered with yes before it is done
-  /// What is done beside the edits of the draft; none: nothing. May give another reply.
-  std::function<base::Result<std::string>()> deed = nullptr;
+  /// Done before the edits of the draft, which are not made where it fails; none: nothing.
+  std::function<base::Result<void>()> deed = nullptr;
 };
 
 /// Objects that the hand has taken by voice.
@@ -47,6 +47,8 @@ struct Reading {
   base::Result<std::vector<ObjectId>> objects();
   /// Why words cannot be a name or a word of one's own: they mean something already. Empty where they can.
   std::string why_no_name(const std::string& words) const;
+  /// The part of the sentence by that rule. Fails where the vocabulary's form of the command has none.
+  base::Result<const Phrase*> needed(std::string_view rule) const;
   /// The words of a part of the sentence.
   std::string words_of(const Phrase& part) const;
 };

@@ -18,8 +18,8 @@ namespace {
 using base::fail;
 using base::Result;
 
-constexpr double kLongest = 600.0;               // s
-constexpr std::uint64_t kMostBytes = 1U << 30U;  // of a file
+constexpr double kLongest = 600.0;                                        // s
+constexpr auto kMostBytes = std::uint64_t(2.0 * kLongest * kSampleRate);  // of a file without a header
 constexpr int kMostChannels = 64;
 
 struct CloseSound {

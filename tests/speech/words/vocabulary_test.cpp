@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "speech/dialogue/acts.h"
+#include "speech/dialogue/dialogue.h"
 #include "speech/words/own_words.h"
 
 namespace icome::speech {
@@ -76,6 +78,31 @@ TEST(Vocabulary, AFileThatIsWrongAddsNothing) {
   const std::size_t colours = vocabulary.table("colour").size();
   EXPECT_FALSE(add_vocabulary(vocabulary, "[words.colour]\nteal = \"#008080\"\nbad = \"x\"\n", "own.toml"));
   EXPECT_EQ(vocabulary.table("colour").size(), colours);
+}
+
+class NoHand final : public Stage {
+ public:
+  std::vector<ObjectId> selection() const override { return {}; }
+  void select(const std::vector<ObjectId>&) override {}
+};
+
+TEST(Vocabulary, FormsWithoutTheirPartsAreRefusedWhenTheyAreSaid) {
+  for (const std::string& act : act_names()) {
+    Vocabulary vocabulary = *built_in_vocabulary();
+    const auto added =
+        add_vocabulary(vocabulary,
+                       "[[command]]\nname = \"odd\"\nsay = [\"frobnicate [<object>]\"]\ndoes = \"" + act +
+                           "\"\n[rules]\nwhere = \"somewhere\"\nrelation = \"around [<reference>]\"\n",
+                       "own.toml");
+    ASSERT_TRUE(added) << added.error().message;
+    interaction::OperationRunner design{world::World()};
+    NoHand stage;
+    OwnWords own_words;
+    Dialogue dialogue(vocabulary, design, stage, own_words);
+    for (const char* sentence : {"a box", "frobnicate", "frobnicate it", "frobnicate the box around it",
+                                 "frobnicate the box around", "put the box somewhere", "a cone somewhere"})
+      EXPECT_FALSE(dialogue.hear(sentence).reply.empty()) << act << ": " << sentence;
+  }
 }
 
 class OwnWordsFile : public testing::Test {
