@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How often icome listen hears what was said, and how long it takes.
 
-  python3 benchmarks/speech/recognition.py build/release/bin/icome [--sentences 60]
+  python3 benchmarks/speech/recognition.py build/release/bin/icome [--sentences 60] [--wrong]
 
 The sentences are those of tests/speech/dialogue/dialogues.txt, spoken by voices of espeak-ng (package espeak-ng).
 Synthetic voices are not people: the figures compare settings of the recogniser, and say little of how it hears you.
@@ -42,6 +42,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("--sentences", type=int, default=60)
+    parser.add_argument("--wrong", action="store_true", help="print what is misheard")
     options = parser.parse_args()
     chosen = sentences(options.program)[: options.sentences]
     print(f"{'voice':12}{'right':>12}{'ms, median':>12}{'p95':>8}")
@@ -54,8 +55,11 @@ def main():
             heard = {}
             for answer in answers(options.program, "listen", *files):
                 heard.setdefault(answer["file"], []).append(answer)
-            right = sum(" ".join(it["heard"] for it in heard.get(file, [])) == sentence
-                        for file, sentence in zip(files, chosen))
+            pairs = [(sentence, " ".join(it["heard"] for it in heard.get(file, [])))
+                     for file, sentence in zip(files, chosen)]
+            right = sum(sentence == understood for sentence, understood in pairs)
+            if options.wrong:
+                print("\n".join(f"  {said} -> {understood}" for said, understood in pairs if said != understood))
             times = sorted(it["ms"] for all_heard in heard.values() for it in all_heard)
             print(f"{voice:12}{right:>5} of {len(chosen):<4}{times[len(times) // 2]:>11.0f}"
                   f"{times[int(0.95 * (len(times) - 1))]:>8.0f}", flush=True)

@@ -8,7 +8,7 @@
 #include "apps/speech/talk.h"
 #include "apps/stopwatch.h"
 #include "files/design_files.h"
-#include "speech/hearing/recogniser.h"
+#include "speech/hearing/likely_meant.h"
 #include "speech/hearing/recording.h"
 #include "speech/hearing/voice_activity.h"
 
@@ -22,7 +22,9 @@ using interaction::Value;
 class Listener {
  public:
   Listener(const ListenOptions& options, Talk& talk, speech::Recogniser& recogniser)
-      : options_(options), talk_(talk), recogniser_(recogniser) {}
+      : options_(options), talk_(talk), recogniser_(recogniser) {
+    if (options.least_score) limits_.least_score = *options.least_score;
+  }
 
   Result<void> hear_recording(const std::filesystem::path& file) {
     const auto sound = speech::read_recording(file);
@@ -43,20 +45,23 @@ class Listener {
     if (const auto ready = follow_grammar(); !ready) return ready;
     const auto heard = recogniser_.recognise(utterance.samples);
     if (!heard) return tl::unexpected(heard.error());
-    speech::WordTimes times{.now = time_ + utterance.speech_end};
-    for (const speech::HeardWord& word : heard->words)
-      times.words.push_back(time_ + utterance.begin + word.begin);
     // Without --apply each is understood by itself.
     std::unique_ptr<Talk> own = options_.apply ? nullptr : talk_.beginning();
     Talk& talk = own ? *own : talk_;
-    speech::Answer answer;
-    answer.heard = heard->sentence();
-    const bool is_too_bad = options_.least_score < 0.0 && heard->score < options_.least_score;
-    if (heard->words.empty() || is_too_bad)
-      answer.reply = "That was no sentence that I know.";
-    else
-      answer = talk.dialogue().hear(heard->sentence(), times);
-    return tell_answer(answer, *heard, utterance, file, talk.world(), 1000.0 * watch.seconds());
+    talk.dialogue().vocabulary();
+    const speech::Heard* const meant = speech::likely_meant(*heard, talk.dialogue(), limits_);
+    speech::Answer answer{.reply = "That was no sentence that I know."};
+    if (meant != nullptr) answer = talk.dialogue().hear(meant->sentence(), times_of(*meant, utterance));
+    const speech::Heard nearest = meant != nullptr ? *meant : heard->empty() ? speech::Heard{} : heard->front();
+    if (meant == nullptr) answer.heard = nearest.sentence();
+    return tell_answer(answer, nearest.score, utterance, file, talk.world(), 1000.0 * watch.seconds());
+  }
+
+  speech::WordTimes times_of(const speech::Heard& heard, const speech::Utterance& utterance) const {
+    speech::WordTimes times{.now = time_ + utterance.speech_end};
+    for (const speech::HeardWord& word : heard.words)
+      times.words.push_back(time_ + utterance.begin + word.begin);
+    return times;
   }
 
   /// The recogniser knows what can be said now.
@@ -64,7 +69,8 @@ class Listener {
     const speech::Grammar& grammar = talk_.dialogue().vocabulary().grammar;
     std::string jsgf = grammar.jsgf(speech::Dialogue::kSentence, "icome");
     if (jsgf == known_) return {};
-    const auto silent = recogniser_.set_grammar(grammar, speech::Dialogue::kSentence);
+    const auto silent = recogniser_.set_grammar(
+        grammar, {speech::Dialogue::kSentence, speech::Dialogue::kUsualSentence});
     if (!silent) return tl::unexpected(silent.error());
     if (!silent->empty() && *silent != silent_)
       tell(fmt::format("nobody can be heard to say: {}", fmt::join(*silent, ", ")));
@@ -73,8 +79,7 @@ class Listener {
     return {};
   }
 
-  Result<void> tell_answer(const speech::Answer& answer, const speech::Heard& heard,
-                           const speech::Utterance& utterance, const std::filesystem::path& file,
+  Result<void> tell_answer(const speech::Answer& answer, double score, const speech::Utterance& utterance, const std::filesystem::path& file,
                            const world::World& world, double ms) const {
     std::string text;
     if (options_.talk.json) {
@@ -82,7 +87,7 @@ class Listener {
           {"file", file.string()}, {"begin_s", utterance.begin}, {"end_s", utterance.speech_end}};
       for (auto& [name, value] : answer_value(answer, world)) {
         fields.emplace_back(name == "reply" ? "said" : name, std::move(value));
-        if (name == "heard") fields.emplace_back("score", heard.score);
+        if (name == "heard") fields.emplace_back("score", score);
       }
       fields.emplace_back("ms", ms);
       text = interaction::json_from_value(fields) + "\n";
@@ -96,6 +101,7 @@ class Listener {
   const ListenOptions& options_;
   Talk& talk_;
   speech::Recogniser& recogniser_;
+  speech::HearingLimits limits_;
   std::string known_;  // the grammar that the recogniser has
   std::vector<std::string> silent_;
   double time_ = 0.0;  // s, of the beginning of the recording

@@ -44,7 +44,7 @@ struct ListenOptions {
   std::filesystem::path out;      // empty: over the design, where it is a file
   bool force = false;
   double hang = 0.4;         // s of silence that end an utterance
-  double least_score = 0.0;  // 0: the usual one
+  std::optional<double> least_score;  // none: the usual one
 };
 
 /// The options of the commands of speech; a command that was not given leaves nothing.

@@ -151,14 +151,22 @@ void Dialogue::refresh() {
   refresh_names();
   refresh_words();
   std::vector<WordMeaning> topics;
-  Pattern sentence{Pattern::Kind::Choice, {}, {}};
+  Pattern sentence{Pattern::Kind::Choice, {}, {}}, usual{Pattern::Kind::Choice, {}, {}};
   for (const Command& command : vocabulary_.commands) {
     topics.push_back({joined_words(spoken_words(command.name)), {}, command.name});
     sentence.parts.push_back(rule_pattern(command.rule));
+    if (const Pattern* const often = vocabulary_.grammar.find(command.usual))
+      usual.parts.insert(usual.parts.end(), often->parts.begin(), often->parts.end());
   }
-  if (choice_) sentence.parts.push_back(rule_pattern("answer"));
+  if (choice_) {
+    sentence.parts.push_back(rule_pattern("answer"));
+    // Whoever was asked usually answers.
+    const std::size_t others = usual.parts.size();
+    usual.parts.insert(usual.parts.end(), others, rule_pattern("common-answer"));
+  }
   vocabulary_.grammar.set("topic", pattern_of(topics, false));
   vocabulary_.grammar.set(std::string(kSentence), std::move(sentence));
+  vocabulary_.grammar.set(std::string(kUsualSentence), std::move(usual));
 }
 
 // ---- Understanding ----------------------------------------------------------------------------------------

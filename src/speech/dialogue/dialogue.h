@@ -48,6 +48,8 @@ class Dialogue {
   const Vocabulary& vocabulary();
   /// The rule of vocabulary().grammar that matches whatever is understood now, also answers to a question.
   static constexpr std::string_view kSentence = "sentence";
+  /// The rule of sentences that people say most, each of its forms as often as the others.
+  static constexpr std::string_view kUsualSentence = "usual-sentence";
 
   /// Would the sentence be understood and done, or asked about? Nothing is changed. By what could be said at
   /// the last call of another function.

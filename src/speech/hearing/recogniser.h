@@ -20,26 +20,35 @@ struct HeardWord {
   double begin = 0.0, end = 0.0;
 };
 
-/// The best sentence of the grammar for a sound.
+/// A sentence of the grammar that may have been said.
 struct Heard {
-  std::vector<HeardWord> words = {};  // none: nothing of the grammar
+  std::vector<HeardWord> words = {};
   /// How well the sounds of its words fit: the natural logarithm of their likelihood, beside that of the
-  /// best sounds that the search looked at, for a frame of 10 ms; 0 at best.
+  /// best sounds for a frame of 10 ms; 0 at best.
   double score = 0.0;
+  /// How much less likely it is than the best words in any order, as a natural logarithm; 0 at best.
+  double behind = 0.0;
 
   std::string sentence() const;
 };
 
-/// Finds the sentence of a grammar that was said. One thread uses it.
+/// The rules of a grammar that are recognised.
+struct HeardRules {
+  std::string_view sentence;  // whatever can be said
+  std::string_view usual;     // what is said most, each of its forms as often as the others
+};
+
+/// Finds the sentences of a grammar that may have been said. One thread uses it.
 class Recogniser {
  public:
   virtual ~Recogniser() = default;
-  /// Sentences of this rule are recognised from now on. Gives words for which there are no sounds: sentences
-  /// with these are not heard. Fails where the grammar has no sentence.
+  /// Sentences of these rules are recognised from now on. Gives words for which there are no sounds:
+  /// sentences with these are not heard. Fails where the grammar has no sentence.
   virtual base::Result<std::vector<std::string>> set_grammar(const Grammar& grammar,
-                                                             std::string_view rule) = 0;
-  /// The words of one utterance, whole.
-  virtual base::Result<Heard> recognise(Sound utterance) = 0;
+                                                             const HeardRules& rules) = 0;
+  /// What may have been said in one utterance, whole: different sentences, the likeliest first; none where
+  /// it is no sentence of the grammar.
+  virtual base::Result<std::vector<Heard>> recognise(Sound utterance) = 0;
 };
 
 /// PocketSphinx with its model of English. Fails, naming the package, where the model is missing.

@@ -2,15 +2,19 @@
 #include <fmt/format.h>
 #include <pocketsphinx/pocketsphinx.h>
 #include <sphinxbase/err.h>
+#include <sphinxbase/ngram_model.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 #include <set>
 
 #include "base/random.h"
 #include "speech/grammar/sentence_sampler.h"
-#include "speech/grammar/word_graph.h"
+#include "speech/hearing/language_model.h"
+#include "speech/hearing/noise_floor.h"
 #include "speech/hearing/recogniser.h"
 #include "speech/hearing/word_sounds.h"
 
@@ -23,53 +27,34 @@ using base::Result;
 constexpr const char* kModel = "/usr/share/pocketsphinx/model/en-us";
 constexpr const char* kSearch = "icome";
 constexpr double kFramesPerSecond = 100.0;
-constexpr double kLanguageWeight = 6.5;  // of steps beside sounds
-/// Parts of sentences that the graph has once for all places, as it would be too large otherwise.
-constexpr std::array<std::string_view, 1> kShared = {"object"};
+/// Scores are sums of logarithms to a base near 1, without their last ten binary places.
+constexpr int kScoreUnit = 1 << 10;
+constexpr std::size_t kMostPaths = 400;  // through the words that fit, the likeliest first
+constexpr std::size_t kMostSentences = 12;
 
-/// How often each step of a state was taken, the end of the sentence last.
-struct StepCount {
-  std::vector<double> counts;
-  double sum = 0.0;
-
-  /// Steps that were not taken share what twenty steps are worth with the others.
-  double share(std::size_t step) const {
-    constexpr double kUnseen = 20.0;
-    return (counts[step] + kUnseen / double(counts.size())) / (sum + kUnseen);
-  }
-};
-using StepCounts = std::vector<StepCount>;
-
-/// The steps of sentences drawn at random, where each form of a rule is as likely as the others.
-StepCounts usual_steps(const Grammar& grammar, std::string_view rule, const WordGraph& graph) {
-  constexpr int kSentences = 20'000;
-  StepCounts counts;
-  for (const WordGraph::State& state : graph.states)
-    counts.push_back({std::vector<double>(state.next.size() + 1, 0.0), 0.0});
+/// Sentences drawn at random, mostly such as people say most, without words that cannot be heard.
+std::vector<LanguageModel::Sentence> example_sentences(const Grammar& grammar, const HeardRules& rules,
+                                                       const std::set<std::string>& known) {
+  constexpr int kSentences = 40'000;
+  constexpr double kUsual = 0.8;  // of them
+  const Pattern* const all = grammar.find(rules.sentence);
+  const Pattern* const usual = grammar.find(rules.usual);
   base::Random random(1);
-  const Pattern* const pattern = grammar.find(rule);
+  std::vector<LanguageModel::Sentence> sentences;
   for (int i = 0; i < kSentences; ++i) {
-    const auto words = sample_sentence(grammar, *pattern, random);
-    if (!words) break;
-    std::size_t at = 0;
-    const auto take = [&](std::size_t step) {
-      counts[at].counts[step] += 1.0;
-      counts[at].sum += 1.0;
-    };
-    for (const std::string& word : *words) {
-      const auto& next = graph.states[at].next;
-      const auto step =
-          std::ranges::lower_bound(next, word, {}, &std::pair<std::string, std::uint32_t>::first);
-      take(std::size_t(step - next.begin()));
-      at = step->second;
-    }
-    take(graph.states[at].next.size());
+    const bool is_usual = usual != nullptr && random.uniform(0.0, 1.0) < kUsual;
+    auto words = sample_sentence(grammar, is_usual ? *usual : *all, random);
+    if (words && std::ranges::all_of(*words, [&](const auto& word) { return known.contains(word); }))
+      sentences.push_back(std::move(*words));
   }
-  return counts;
+  return sentences;
 }
 
 struct FreeDecoder {
   void operator()(ps_decoder_t* decoder) const { ps_free(decoder); }
+};
+struct FreePaths {
+  void operator()(ps_nbest_t* paths) const { ps_nbest_free(paths); }
 };
 struct FreeConfig {
   void operator()(cmd_ln_t* config) const { cmd_ln_free_r(config); }
@@ -81,6 +66,30 @@ bool is_filler(std::string_view word) {
          word == "(NULL)";
 }
 
+/// A file for as long as it is needed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& text) {
+    std::string path = (std::filesystem::temp_directory_path() / "icome-words-XXXXXX").string();
+    const int file = mkstemp(path.data());
+    if (file < 0) return;
+    path_ = path;
+    std::ofstream(path_) << text;
+    ::close(file);
+  }
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
 /// "read(2)" is a second way to say "read".
 std::string without_variant(std::string_view word) { return std::string(word.substr(0, word.find('('))); }
 
@@ -90,33 +99,33 @@ class SphinxRecogniser final : public Recogniser {
                    std::unique_ptr<ps_decoder_t, FreeDecoder> decoder)
       : config_(std::move(config)), decoder_(std::move(decoder)) {}
 
-  Result<std::vector<std::string>> set_grammar(const Grammar& grammar, std::string_view rule) override {
-    const auto graph = word_graph(grammar, rule, {kShared.begin(), kShared.end()});
-    if (!graph) return tl::unexpected(graph.error());
-    std::vector<std::string> silent;
+  Result<std::vector<std::string>> set_grammar(const Grammar& grammar, const HeardRules& rules) override {
+    std::vector<std::string> silent, spoken;
     std::set<std::string> known;
-    for (const std::string& word : grammar.vocabulary(rule)) {
+    for (const std::string& word : grammar.vocabulary(rules.sentence)) {
       if (teach(word))
         known.insert(word);
       else
         silent.push_back(word);
     }
-    fsg_model_t* const model = model_of(*graph, usual_steps(grammar, rule, *graph), known);
-    const bool taken =
-        ps_set_fsg(decoder_.get(), kSearch, model) == 0 && ps_set_search(decoder_.get(), kSearch) == 0;
-    fsg_model_free(model);
-    if (!taken) return fail("the recogniser does not take the grammar: it has no sentence");
+    const auto sentences = example_sentences(grammar, rules, known);
+    if (sentences.empty()) return fail("the recogniser does not take the grammar: it has no sentence");
+    spoken.assign(known.begin(), known.end());
+    if (!take(LanguageModel(sentences, spoken))) return fail("the recogniser does not take the words");
+    grammar_ = grammar;
+    rule_ = rules.sentence;
     return silent;
   }
 
-  Result<Heard> recognise(Sound utterance) override {
-    if (ps_start_utt(decoder_.get()) != 0)
+  Result<std::vector<Heard>> recognise(Sound utterance) override {
+    if (rule_.empty() || ps_start_utt(decoder_.get()) != 0)
       return fail("the recogniser did not begin; give it a grammar first");
     // The whole utterance at once: its own mean is what it is normalised by.
-    const int frames = ps_process_raw(decoder_.get(), utterance.data(), utterance.size(), FALSE, TRUE);
+    const std::vector<std::int16_t> sound = with_noise_floor(utterance);
+    const int frames = ps_process_raw(decoder_.get(), sound.data(), sound.size(), FALSE, TRUE);
     ps_end_utt(decoder_.get());
     if (frames < 0) return fail("the recogniser did not take the sound");
-    return best();
+    return likeliest();
   }
 
  private:
@@ -130,35 +139,24 @@ class SphinxRecogniser final : public Recogniser {
     return !sounds.empty() && ps_add_word(decoder_.get(), word.c_str(), sounds.c_str(), FALSE) >= 0;
   }
 
-  /// The graph with the share of each step among sentences drawn at random, as the recogniser has it; without
-  /// words that are not known.
-  fsg_model_t* model_of(const WordGraph& graph, const StepCounts& counts,
-                        const std::set<std::string>& known) {
-    logmath_t* const logarithms = ps_get_logmath(decoder_.get());
-    const auto end = int32(graph.states.size());
-    fsg_model_t* const model = fsg_model_init(kSearch, logarithms, float32(kLanguageWeight), end + 1);
-    model->start_state = 0;
-    model->final_state = end;
-    for (int32 from = 0; from < end; ++from) {
-      const WordGraph::State& state = graph.states[std::size_t(from)];
-      const auto weight = [&](std::size_t step) {
-        const double share = counts[std::size_t(from)].share(step);
-        return int32(logmath_log(logarithms, share) * kLanguageWeight);
-      };
-      if (state.is_end) fsg_model_null_trans_add(model, from, end, weight(state.next.size()));
-      for (std::size_t i = 0; i < state.next.size(); ++i) {
-        const auto& [word, to] = state.next[i];
-        if (known.contains(word))
-          fsg_model_trans_add(model, from, int32(to), weight(i), fsg_model_word_add(model, word.c_str()));
-      }
-    }
-    // What it gives back is a list of the steps, which the model has too.
-    glist_free(fsg_model_null_trans_closure(model, nullptr));
-    return model;
+  bool take(const LanguageModel& words) {
+    const TemporaryFile file(words.arpa());
+    ngram_model_t* const model = ngram_model_read(config_.get(), file.path().c_str(), NGRAM_ARPA,
+                                                  logmath_retain(ps_get_logmath(decoder_.get())));
+    if (model == nullptr) return false;
+    const bool taken =
+        ps_set_lm(decoder_.get(), kSearch, model) == 0 && ps_set_search(decoder_.get(), kSearch) == 0;
+    ngram_model_free(model);
+    return taken;
   }
 
-  Heard best() {
-    Heard heard;
+  /// A difference of scores as a natural logarithm.
+  double natural(double difference) {
+    return difference * logmath_log_to_ln(ps_get_logmath(decoder_.get()), kScoreUnit);
+  }
+
+  /// How well the sounds of the best words fit, for a frame, and the frames of speech.
+  std::pair<double, double> fit_of_best() {
     double sum = 0.0, frames = 0.0;
     for (ps_seg_t* segment = ps_seg_iter(decoder_.get()); segment; segment = ps_seg_next(segment)) {
       const char* const word = ps_seg_word(segment);
@@ -167,21 +165,57 @@ class SphinxRecogniser final : public Recogniser {
       ps_seg_frames(segment, &first, &last);
       int32 acoustic = 0;
       ps_seg_prob(segment, &acoustic, nullptr, nullptr);
-      sum += double(acoustic);
+      sum += double(acoustic) / kScoreUnit;
       frames += double(last - first + 1);
-      heard.words.push_back({without_variant(word), first / kFramesPerSecond, (last + 1) / kFramesPerSecond});
     }
-    int32 score = 0;
-    if (!ps_get_hyp(decoder_.get(), &score)) heard.words.clear();  // it did not come to the end of a sentence
-    // Scores are in units of the recogniser's own logarithm.
-    // Sounds are scored in 1024 units of the recogniser's own logarithm.
-    constexpr int kUnits = 1024;
-    if (frames > 0.0) heard.score = sum / frames * logmath_log_to_ln(ps_get_logmath(decoder_.get()), kUnits);
-    return heard;
+    return {frames > 0.0 ? natural(sum / frames) : 0.0, std::max(frames, 1.0)};
+  }
+
+  /// Those of the likeliest ways through the words that are sentences of the grammar.
+  std::vector<Heard> likeliest() {
+    std::vector<Heard> all;
+    const auto [fit, frames] = fit_of_best();
+    std::unique_ptr<ps_nbest_t, FreePaths> paths(ps_nbest(decoder_.get()));
+    std::set<std::string> tried;
+    std::optional<double> best;
+    for (std::size_t i = 0; paths && i < kMostPaths && all.size() < kMostSentences; ++i) {
+      int32 score = 0;
+      if (ps_nbest_hyp(paths.get(), &score) != nullptr) {
+        if (!best) best = score;
+        Heard heard{words_of(paths.get())};
+        heard.behind = natural(*best - score);
+        heard.score = fit - heard.behind / frames;
+        if (tried.insert(heard.sentence()).second && is_sentence(heard)) all.push_back(std::move(heard));
+      }
+      // At the end of the ways it frees them by itself.
+      ps_nbest_t* const next = ps_nbest_next(paths.release());
+      paths.reset(next);
+    }
+    return all;
+  }
+
+  static std::vector<HeardWord> words_of(ps_nbest_t* path) {
+    std::vector<HeardWord> words;
+    for (ps_seg_t* segment = ps_nbest_seg(path); segment; segment = ps_seg_next(segment)) {
+      const char* const word = ps_seg_word(segment);
+      if (!word || is_filler(word)) continue;
+      int first = 0, last = 0;
+      ps_seg_frames(segment, &first, &last);
+      words.push_back({without_variant(word), first / kFramesPerSecond, (last + 1) / kFramesPerSecond});
+    }
+    return words;
+  }
+
+  bool is_sentence(const Heard& heard) const {
+    std::vector<std::string> words;
+    for (const HeardWord& word : heard.words) words.push_back(word.word);
+    return !words.empty() && !grammar_.parse(rule_, words).empty();
   }
 
   std::unique_ptr<cmd_ln_t, FreeConfig> config_;
   std::unique_ptr<ps_decoder_t, FreeDecoder> decoder_;
+  Grammar grammar_;
+  std::string rule_;  // empty: there is no grammar yet
 };
 
 }  // namespace
@@ -201,8 +235,8 @@ Result<std::unique_ptr<Recogniser>> make_sphinx_recogniser() {
   const std::string dictionary = std::string(kModel) + "/cmudict-en-us.dict";
   std::unique_ptr<cmd_ln_t, FreeConfig> config(
       cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", hmm.c_str(), "-dict", dictionary.c_str(), "-cmn", "batch",
-                  "-remove_silence", "no", "-dither", "yes", "-seed", "1", "-beam", "1e-80", "-pbeam",
-                  "1e-80", "-wbeam", "1e-60", nullptr));
+                  "-remove_noise", "no", "-remove_silence", "no", "-compallsen", "yes", "-beam", "1e-80", "-pbeam", "1e-80", "-wbeam", "1e-60",
+                  "-fwdflatbeam", "1e-80", "-fwdflatwbeam", "1e-60", nullptr));
   if (!config) return fail("the recogniser does not take its settings");
   std::unique_ptr<ps_decoder_t, FreeDecoder> decoder(ps_init(config.get()));
   if (!decoder) return fail(fmt::format("the recogniser cannot read the model in {}", kModel));

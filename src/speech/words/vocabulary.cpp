@@ -187,8 +187,8 @@ class VocabularyReader {
 
   void read_command(const TomlNode& table) {
     Command command;
-    Pattern forms{Pattern::Kind::Choice};
-    for (const TomlMember& member : table.members) read_command_key(member, command, forms);
+    Pattern forms{Pattern::Kind::Choice}, often{Pattern::Kind::Choice};
+    for (const TomlMember& member : table.members) read_command_key(member, command, forms, often);
     if (command.name.empty() || forms.parts.empty() || command.does.empty() == command.operation.empty()) {
       problems_.add(
           table.place,
@@ -199,6 +199,11 @@ class VocabularyReader {
     command.rule = "command-" + command.name;
     to_.grammar.set(command.rule, std::move(forms));
     rule_places_.emplace_back(command.rule, table.place);
+    if (!often.parts.empty()) {
+      command.usual = "usual-" + command.name;
+      to_.grammar.set(command.usual, std::move(often));
+      rule_places_.emplace_back(command.usual, table.place);
+    }
     command_places_.emplace_back(command.name, table.place);
     const auto known = std::ranges::find(to_.commands, command.name, &Command::name);
     if (known == to_.commands.end())
@@ -207,10 +212,13 @@ class VocabularyReader {
       *known = std::move(command);
   }
 
-  void read_command_key(const TomlMember& member, Command& command, Pattern& forms) {
+  void read_command_key(const TomlMember& member, Command& command, Pattern& forms, Pattern& often) {
     const std::string& key = member.key;
     if (key == "say") {
-      read_forms(member.value, command, forms);
+      read_forms(member, command.name, forms);
+      for (const Pattern& form : forms.parts) command.say.push_back(text_of(form));
+    } else if (key == "often") {
+      read_forms(member, command.name, often);
     } else if (key == "with") {
       if (!is(member.value, Kind::Table, "'with'", "a table of parameters")) return;
       command.with = *interaction::value_from_toml(member.value).fields();
@@ -223,16 +231,14 @@ class VocabularyReader {
     } else {
       problems_.add(member.place,
                     fmt::format("a command has no key '{}'{}", key,
-                                base::suggestion(key, {"name", "help", "say", "does", "op", "with"})));
+                                base::suggestion(key, {"name", "help", "say", "often", "does", "op", "with"})));
     }
   }
 
-  void read_forms(const TomlNode& node, Command& command, Pattern& forms) {
-    if (!is(node, Kind::Array, "'say'", "a list of patterns")) return;
-    for (const TomlNode& form : node.elements) {
-      forms.parts.push_back(read_pattern(form, "a form of '" + command.name + "'"));
-      command.say.push_back(form.text);
-    }
+  void read_forms(const TomlMember& list, const std::string& command, Pattern& forms) {
+    if (!is(list.value, Kind::Array, "'" + list.key + "'", "a list of patterns")) return;
+    for (const TomlNode& form : list.value.elements)
+      forms.parts.push_back(read_pattern(form, "a form of '" + command + "'"));
   }
 
   void add_live_rules() {

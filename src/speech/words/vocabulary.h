@@ -27,7 +27,8 @@ struct Command {
   std::string operation = {};         // an operation of `icome edit`
   interaction::Value::Fields with =
       {};                 // its parameters; "<objects>" is what that part of the sentence means
-  std::string rule = {};  // of the grammar, with all forms
+  std::string rule = {};   // of the grammar, with all forms
+  std::string usual = {};  // of the grammar, the forms that people say most; empty: none are given
 };
 
 /// The words, rules and commands of a language. A plain value.
