@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -122,6 +123,19 @@ class Speech(unittest.TestCase):
             self.assertEqual(it["state"], "refused")  # there is no question
             self.assertGreater(it["end_s"], it["begin_s"])
             self.assertLess(it["score"], 0)
+
+    @unittest.skipUnless(shutil.which("espeak-ng"), "espeak-ng, which speaks here, is not installed")
+    def test_a_voice_makes_a_design(self):
+        said = ["create a small red sphere", "put a large blue box left of the sphere", "delete the sphere",
+                "he does not like the music", "undo"]
+        files = [f"{i}.wav" for i in range(len(said))]
+        for file, sentence in zip(files, said):
+            subprocess.run(["espeak-ng", "-v", "en-us", "-w", str(self.at / file), sentence], check=True)
+        done = self.run_icome("listen", "--json", "--apply", "--out", "heard.icome", *files)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        heard = [json.loads(line) for line in done.stdout.splitlines()]
+        self.assertEqual([it["heard"] for it in heard if it["accepted"]], said[:3] + said[4:])
+        self.assertEqual(self.say("--design", "heard.icome", "how many things are there")[0]["reply"], "2 things.")
 
     @unittest.skipUnless(SHARED.is_dir(), "the shared recordings are not there")
     def test_silence_says_nothing(self):

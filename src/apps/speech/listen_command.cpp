@@ -52,7 +52,9 @@ class Listener {
     const speech::Heard* const meant = speech::likely_meant(*heard, talk.dialogue(), limits_);
     speech::Answer answer{.reply = "That was no sentence that I know."};
     if (meant != nullptr) answer = talk.dialogue().hear(meant->sentence(), times_of(*meant, utterance));
-    const speech::Heard nearest = meant != nullptr ? *meant : heard->empty() ? speech::Heard{} : heard->front();
+    const speech::Heard nearest = meant != nullptr ? *meant
+                                  : heard->empty() ? speech::Heard{}
+                                                   : heard->front();
     if (meant == nullptr) answer.heard = nearest.sentence();
     return tell_answer(answer, nearest.score, utterance, file, talk.world(), 1000.0 * watch.seconds());
   }
@@ -69,8 +71,8 @@ class Listener {
     const speech::Grammar& grammar = talk_.dialogue().vocabulary().grammar;
     std::string jsgf = grammar.jsgf(speech::Dialogue::kSentence, "icome");
     if (jsgf == known_) return {};
-    const auto silent = recogniser_.set_grammar(
-        grammar, {speech::Dialogue::kSentence, speech::Dialogue::kUsualSentence});
+    const auto silent =
+        recogniser_.set_grammar(grammar, {speech::Dialogue::kSentence, speech::Dialogue::kUsualSentence});
     if (!silent) return tl::unexpected(silent.error());
     if (!silent->empty() && *silent != silent_)
       tell(fmt::format("nobody can be heard to say: {}", fmt::join(*silent, ", ")));
@@ -79,8 +81,8 @@ class Listener {
     return {};
   }
 
-  Result<void> tell_answer(const speech::Answer& answer, double score, const speech::Utterance& utterance, const std::filesystem::path& file,
-                           const world::World& world, double ms) const {
+  Result<void> tell_answer(const speech::Answer& answer, double score, const speech::Utterance& utterance,
+                           const std::filesystem::path& file, const world::World& world, double ms) const {
     std::string text;
     if (options_.talk.json) {
       Value::Fields fields{

@@ -109,7 +109,7 @@ void add_speech(CLI::App& app, SpeechOptions& options) {
       ->check(number_range(0.1, 2.0));
   listen
       .add_option("--least-score", options.listen.least_score,
-                  "Score below which an utterance is no sentence (default -7.5)")
+                  "Score below which an utterance is no sentence (default -6.6)")
       ->type_name("SCORE")
       ->check(number_range(-100.0, 0.0));
   listen.add_flag("--json", options.listen.talk.json,

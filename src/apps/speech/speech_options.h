@@ -43,7 +43,7 @@ struct ListenOptions {
   bool apply = false;             // do what was understood
   std::filesystem::path out;      // empty: over the design, where it is a file
   bool force = false;
-  double hang = 0.4;         // s of silence that end an utterance
+  double hang = 0.4;                  // s of silence that end an utterance
   std::optional<double> least_score;  // none: the usual one
 };
 

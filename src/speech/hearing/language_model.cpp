@@ -20,7 +20,7 @@ double LanguageModel::Followers::share(std::string_view word) const {
   return found == counts.end() ? 0.0 : (1.0 - rest()) * found->second / sum;
 }
 
-LanguageModel::LanguageModel(std::span<const Sentence> sentences, std::span<const std::string> words) {
+LanguageModel::LanguageModel(std::span<const Sentence> sentences, const std::set<std::string>& words) {
   const auto add = [](Followers& to, const std::string& word) {
     to.counts[word] += 1.0;
     to.sum += 1.0;
@@ -40,32 +40,32 @@ LanguageModel::LanguageModel(std::span<const Sentence> sentences, std::span<cons
     if (!words_.counts.contains(word)) add(words_, word);
 }
 
-double LanguageModel::probability(std::string_view word) const {
+double LanguageModel::alone(std::string_view word) const {
   const auto found = words_.counts.find(word);
   return found == words_.counts.end() ? 0.0 : found->second / words_.sum;
 }
 
-double LanguageModel::probability(const std::string& last, std::string_view word) const {
+double LanguageModel::after(const std::string& last, std::string_view word) const {
   const auto seen = after_word_.find(last);
-  if (seen == after_word_.end()) return probability(word);
-  return seen->second.share(word) + seen->second.rest() * probability(word);
+  if (seen == after_word_.end()) return alone(word);
+  return seen->second.share(word) + seen->second.rest() * alone(word);
 }
 
 double LanguageModel::probability(std::span<const std::string> before, std::string_view word) const {
-  if (before.empty()) return probability(word);
+  if (before.empty()) return alone(word);
   const std::string& last = before.back();
-  if (before.size() == 1) return probability(last, word);
+  if (before.size() == 1) return after(last, word);
   const auto seen = after_two_.find({before[before.size() - 2], last});
-  if (seen == after_two_.end()) return probability(last, word);
-  return seen->second.share(word) + seen->second.rest() * probability(last, word);
+  if (seen == after_two_.end()) return after(last, word);
+  return seen->second.share(word) + seen->second.rest() * after(last, word);
 }
 
 std::string LanguageModel::arpa() const {
   std::size_t pairs = 0, triples = 0;
   for (const auto& [word, followers] : after_word_) pairs += followers.counts.size();
   for (const auto& [words, followers] : after_two_) triples += followers.counts.size();
-  std::string text = fmt::format("\\data\\\nngram 1={}\nngram 2={}\nngram 3={}\n", words_.counts.size() + 1,
-                                 pairs, triples);
+  std::string text =
+      fmt::format("\\data\\\nngram 1={}\nngram 2={}\nngram 3={}\n", words_.counts.size() + 1, pairs, triples);
   const auto out = std::back_inserter(text);
   const auto rest_of = [](const auto& all, const auto& key) {
     const auto found = all.find(key);
@@ -73,11 +73,11 @@ std::string LanguageModel::arpa() const {
   };
   fmt::format_to(out, "\n\\1-grams:\n{} {} {:.4f}\n", kNever, kBegin, rest_of(after_word_, kBegin));
   for (const auto& [word, count] : words_.counts)
-    fmt::format_to(out, "{:.4f} {} {:.4f}\n", log10_of(probability(word)), word, rest_of(after_word_, word));
+    fmt::format_to(out, "{:.4f} {} {:.4f}\n", log10_of(alone(word)), word, rest_of(after_word_, word));
   fmt::format_to(out, "\n\\2-grams:\n");
   for (const auto& [last, followers] : after_word_)
     for (const auto& [word, count] : followers.counts)
-      fmt::format_to(out, "{:.4f} {} {} {:.4f}\n", log10_of(probability(last, word)), last, word,
+      fmt::format_to(out, "{:.4f} {} {} {:.4f}\n", log10_of(after(last, word)), last, word,
                      rest_of(after_two_, std::pair(last, word)));
   fmt::format_to(out, "\n\\3-grams:\n");
   for (const auto& [words, followers] : after_two_)

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,7 +16,7 @@ class LanguageModel {
   using Sentence = std::vector<std::string>;
 
   /// Words beside those of the sentences are as likely as one that was seen once.
-  explicit LanguageModel(std::span<const Sentence> sentences, std::span<const std::string> words = {});
+  explicit LanguageModel(std::span<const Sentence> sentences, const std::set<std::string>& words = {});
 
   /// Of a word, or kEnd, after the words before it, kBegin at first; of these the last two count. 0 for a
   /// word that it does not know.
@@ -36,8 +37,8 @@ class LanguageModel {
     double share(std::string_view word) const;
   };
 
-  double probability(std::string_view word) const;
-  double probability(const std::string& last, std::string_view word) const;
+  double alone(std::string_view word) const;
+  double after(const std::string& last, std::string_view word) const;
 
   Followers words_;
   std::map<std::string, Followers, std::less<>> after_word_;

@@ -70,7 +70,8 @@ std::vector<std::int16_t> with_noise_floor(Sound sound) {
   const double factor = std::sqrt((wanted * wanted - own * own) * double(noise.size()) / power);
   for (std::size_t i = 0; i < all.size(); ++i) {
     using Limits = std::numeric_limits<std::int16_t>;
-    all[i] = std::int16_t(std::clamp(std::round(all[i] + factor * noise[i]), double(Limits::min()), double(Limits::max())));
+    all[i] = std::int16_t(
+        std::clamp(std::round(all[i] + factor * noise[i]), double(Limits::min()), double(Limits::max())));
   }
   return all;
 }

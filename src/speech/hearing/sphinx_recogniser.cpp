@@ -41,6 +41,7 @@ std::vector<LanguageModel::Sentence> example_sentences(const Grammar& grammar, c
   const Pattern* const usual = grammar.find(rules.usual);
   base::Random random(1);
   std::vector<LanguageModel::Sentence> sentences;
+  if (all == nullptr) return sentences;
   for (int i = 0; i < kSentences; ++i) {
     const bool is_usual = usual != nullptr && random.uniform(0.0, 1.0) < kUsual;
     auto words = sample_sentence(grammar, is_usual ? *usual : *all, random);
@@ -64,6 +65,14 @@ struct FreeConfig {
 bool is_filler(std::string_view word) {
   return word.empty() || word.front() == '<' || word.front() == '[' || word.front() == '+' ||
          word == "(NULL)";
+}
+
+/// What begins with the first sound of a word is misheard, so there is a pause at both ends.
+constexpr int kPause = kSampleRate / 5;  // samples
+std::vector<std::int16_t> between_pauses(Sound utterance) {
+  std::vector<std::int16_t> sound(utterance.size() + 2 * std::size_t(kPause), 0);
+  std::ranges::copy(utterance, sound.begin() + kPause);
+  return sound;
 }
 
 /// A file for as long as it is needed.
@@ -100,7 +109,7 @@ class SphinxRecogniser final : public Recogniser {
       : config_(std::move(config)), decoder_(std::move(decoder)) {}
 
   Result<std::vector<std::string>> set_grammar(const Grammar& grammar, const HeardRules& rules) override {
-    std::vector<std::string> silent, spoken;
+    std::vector<std::string> silent;
     std::set<std::string> known;
     for (const std::string& word : grammar.vocabulary(rules.sentence)) {
       if (teach(word))
@@ -110,8 +119,7 @@ class SphinxRecogniser final : public Recogniser {
     }
     const auto sentences = example_sentences(grammar, rules, known);
     if (sentences.empty()) return fail("the recogniser does not take the grammar: it has no sentence");
-    spoken.assign(known.begin(), known.end());
-    if (!take(LanguageModel(sentences, spoken))) return fail("the recogniser does not take the words");
+    if (!take(LanguageModel(sentences, known))) return fail("the recogniser does not take the words");
     grammar_ = grammar;
     rule_ = rules.sentence;
     return silent;
@@ -121,7 +129,7 @@ class SphinxRecogniser final : public Recogniser {
     if (rule_.empty() || ps_start_utt(decoder_.get()) != 0)
       return fail("the recogniser did not begin; give it a grammar first");
     // The whole utterance at once: its own mean is what it is normalised by.
-    const std::vector<std::int16_t> sound = with_noise_floor(utterance);
+    const std::vector<std::int16_t> sound = with_noise_floor(between_pauses(utterance));
     const int frames = ps_process_raw(decoder_.get(), sound.data(), sound.size(), FALSE, TRUE);
     ps_end_utt(decoder_.get());
     if (frames < 0) return fail("the recogniser did not take the sound");
@@ -201,7 +209,10 @@ class SphinxRecogniser final : public Recogniser {
       if (!word || is_filler(word)) continue;
       int first = 0, last = 0;
       ps_seg_frames(segment, &first, &last);
-      words.push_back({without_variant(word), first / kFramesPerSecond, (last + 1) / kFramesPerSecond});
+      const auto time_of = [](int frame) {
+        return std::max(0.0, frame / kFramesPerSecond - double(kPause) / kSampleRate);
+      };
+      words.push_back({without_variant(word), time_of(first), time_of(last + 1)});
     }
     return words;
   }
@@ -235,8 +246,9 @@ Result<std::unique_ptr<Recogniser>> make_sphinx_recogniser() {
   const std::string dictionary = std::string(kModel) + "/cmudict-en-us.dict";
   std::unique_ptr<cmd_ln_t, FreeConfig> config(
       cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", hmm.c_str(), "-dict", dictionary.c_str(), "-cmn", "batch",
-                  "-remove_noise", "no", "-remove_silence", "no", "-compallsen", "yes", "-beam", "1e-80", "-pbeam", "1e-80", "-wbeam", "1e-60",
-                  "-fwdflatbeam", "1e-80", "-fwdflatwbeam", "1e-60", nullptr));
+                  "-remove_noise", "no", "-remove_silence", "no", "-compallsen", "yes", "-lw", "8",
+                  "-fwdflatlw", "8", "-bestpathlw", "8", "-beam", "1e-80", "-pbeam", "1e-80", "-wbeam",
+                  "1e-60", "-fwdflatbeam", "1e-80", "-fwdflatwbeam", "1e-60", nullptr));
   if (!config) return fail("the recogniser does not take its settings");
   std::unique_ptr<ps_decoder_t, FreeDecoder> decoder(ps_init(config.get()));
   if (!decoder) return fail(fmt::format("the recogniser cannot read the model in {}", kModel));

@@ -229,9 +229,10 @@ class VocabularyReader {
                                                    : nullptr) {
       if (is(member.value, Kind::String, "'" + key + "'", "text")) *text = member.value.text;
     } else {
-      problems_.add(member.place,
-                    fmt::format("a command has no key '{}'{}", key,
-                                base::suggestion(key, {"name", "help", "say", "often", "does", "op", "with"})));
+      problems_.add(
+          member.place,
+          fmt::format("a command has no key '{}'{}", key,
+                      base::suggestion(key, {"name", "help", "say", "often", "does", "op", "with"})));
     }
   }
 

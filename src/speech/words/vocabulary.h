@@ -26,7 +26,7 @@ struct Command {
   std::string does = {};              // an act of the dialogue, one of dialogue_acts(); or
   std::string operation = {};         // an operation of `icome edit`
   interaction::Value::Fields with =
-      {};                 // its parameters; "<objects>" is what that part of the sentence means
+      {};                  // its parameters; "<objects>" is what that part of the sentence means
   std::string rule = {};   // of the grammar, with all forms
   std::string usual = {};  // of the grammar, the forms that people say most; empty: none are given
 };

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <set>
 
 #include "base/random.h"
 #include "places.h"
+#include "speech/hearing/noise_floor.h"
 #include "speech/hearing/recogniser.h"
 #include "speech/hearing/recording.h"
 #include "speech/hearing/voice_activity.h"
@@ -135,15 +137,51 @@ TEST(SphinxRecogniser, HearsAPersonSayYes) {
   if (!recogniser) GTEST_SKIP() << recogniser.error().message;
   Grammar grammar;
   grammar.set("s", *pattern_from_text("yes | no | save | delete the (red | blue) (box | cone)"));
-  ASSERT_TRUE((*recogniser)->set_grammar(grammar, "s"));
+  grammar.set("often", *pattern_from_text("save | yes"));
+  EXPECT_FALSE((*recogniser)->recognise({}));  // there is no grammar yet
+  EXPECT_FALSE((*recogniser)->set_grammar(grammar, {"nothing", "often"}));
+  ASSERT_TRUE((*recogniser)->set_grammar(grammar, {"s", "often"}));
   const auto sound = read_recording(file);
   ASSERT_TRUE(sound);
   const auto heard = (*recogniser)->recognise(*sound);
   ASSERT_TRUE(heard);
-  EXPECT_EQ(heard->sentence(), "yes");
-  EXPECT_LT(heard->score, 0.0);
-  EXPECT_GT(heard->words.front().begin, 0.0);
-  EXPECT_LT(heard->words.front().end, 1.01);
+  ASSERT_FALSE(heard->empty());
+  const Heard& best = heard->front();
+  EXPECT_EQ(best.sentence(), "yes");
+  EXPECT_LT(best.score, 0.0);
+  EXPECT_GE(best.behind, 0.0);
+  EXPECT_GT(best.words.front().begin, 0.0);
+  EXPECT_LT(best.words.front().end, 1.01);
+  std::set<std::string> different;
+  double behind = 0.0;
+  for (const Heard& one : *heard) {
+    EXPECT_TRUE(different.insert(one.sentence()).second) << one.sentence();
+    EXPECT_GE(one.behind, behind);
+    behind = one.behind;
+    std::vector<std::string> words;
+    for (const HeardWord& word : one.words) words.push_back(word.word);
+    EXPECT_FALSE(grammar.parse("s", words).empty()) << one.sentence();
+  }
+}
+
+TEST(NoiseFloor, IsAThirtiethOfTheSoundWhereItIsQuieter) {
+  const auto loudness = [](Sound sound) {
+    double sum = 0.0;
+    for (const std::int16_t sample : sound) sum += double(sample) * sample;
+    return std::sqrt(sum / double(sound.size()));
+  };
+  std::vector<std::int16_t> sound(3 * kSampleRate, 0);
+  for (std::size_t i = 16000; i < 32000; ++i)
+    sound[i] = std::int16_t(9000.0 * std::sin(2.0 * std::numbers::pi * 300.0 * double(i) / kSampleRate));
+  const auto noisy = with_noise_floor(sound);
+  const double wanted = loudness(sound) / 30.0;
+  EXPECT_NEAR(loudness(Sound(noisy).first(16000)), wanted, 0.15 * wanted);
+  EXPECT_EQ(with_noise_floor(sound), noisy);
+  // What is as loud in its quietest moments stays as it is.
+  std::vector<std::int16_t> shouted(kSampleRate, 1000);
+  EXPECT_EQ(with_noise_floor(shouted), shouted);
+  EXPECT_TRUE(with_noise_floor({}).empty());
+  EXPECT_EQ(with_noise_floor(std::vector<std::int16_t>(1600, 0)), std::vector<std::int16_t>(1600, 0));
 }
 
 }  // namespace

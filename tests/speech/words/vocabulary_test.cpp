@@ -6,9 +6,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/random.h"
 #include "speech/dialogue/acts.h"
 #include "speech/dialogue/dialogue.h"
+#include "speech/grammar/sentence_sampler.h"
 #include "speech/words/own_words.h"
+#include "speech/words/spoken_words.h"
 
 namespace icome::speech {
 namespace {
@@ -18,6 +21,25 @@ TEST(Vocabulary, TheBuiltInOneIsGood) {
   ASSERT_TRUE(vocabulary) << vocabulary.error().message;
   EXPECT_GT(vocabulary->commands.size(), 30U);
   EXPECT_FALSE(built_in_vocabulary("tlh"));
+}
+
+TEST(Vocabulary, WhatIsSaidOftenIsASentenceOfItsCommand) {
+  const auto vocabulary = built_in_vocabulary();
+  ASSERT_TRUE(vocabulary);
+  base::Random random(3);
+  std::size_t tried = 0;
+  for (const Command& command : vocabulary->commands) {
+    const Pattern* const often = vocabulary->grammar.find(command.usual);
+    ASSERT_NE(often, nullptr) << command.name;
+    for (int i = 0; i < 60; ++i) {
+      const auto words = sample_sentence(vocabulary->grammar, *often, random);
+      if (!words) continue;  // it needs names, menus or words of one's own
+      EXPECT_FALSE(vocabulary->grammar.parse(command.rule, *words).empty())
+          << command.name << ": " << joined_words(*words);
+      ++tried;
+    }
+  }
+  EXPECT_GT(tried, 1500U);
 }
 
 /// The problem that a text added to the built-in vocabulary has; empty: none.

@@ -1,0 +1,58 @@
+#include "speech/hearing/likely_meant.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "interaction/operations/operation_runner.h"
+
+namespace icome::speech {
+namespace {
+
+class NobodysStage final : public Stage {
+ public:
+  std::vector<ObjectId> selection() const override { return {}; }
+  void select(const std::vector<ObjectId>&) override {}
+};
+
+class LikelyMeant : public testing::Test {
+ protected:
+  LikelyMeant() {
+    dialogue_.hear("a red box");
+    dialogue_.vocabulary();
+  }
+
+  static Heard heard(const std::string& sentence, double behind, double score = -3.0) {
+    Heard one{.score = score, .behind = behind};
+    std::istringstream words(sentence);
+    for (std::string word; words >> word;) one.words.push_back({word});
+    return one;
+  }
+  std::string meant(const std::vector<Heard>& all) {
+    const Heard* const one = likely_meant(all, dialogue_);
+    return one != nullptr ? one->sentence() : "";
+  }
+
+  interaction::OperationRunner design_{world::World()};
+  NobodysStage stage_;
+  OwnWords own_words_;
+  Dialogue dialogue_{*built_in_vocabulary(), design_, stage_, own_words_};
+};
+
+TEST_F(LikelyMeant, IsTheLikeliestThatCanBeDone) {
+  EXPECT_EQ(meant({heard("delete the red box", 0.0), heard("a red box", 5.0)}), "delete the red box");
+  // There is no blue box, but one can be made.
+  EXPECT_EQ(meant({heard("the blue box", 0.0), heard("a blue box", 30.0)}), "a blue box");
+  // Unless nothing but the impossible was said.
+  EXPECT_EQ(meant({heard("the blue box", 0.0), heard("a blue box", 70.0)}), "the blue box");
+  EXPECT_EQ(meant({heard("the blue box", 0.0)}), "the blue box");
+}
+
+TEST_F(LikelyMeant, IsNothingWhereAllAreUnlikely) {
+  EXPECT_EQ(meant({}), "");
+  EXPECT_EQ(meant({heard("a red box", 150.0)}), "");
+  EXPECT_EQ(meant({heard("a red box", 0.0, -9.0)}), "");
+}
+
+}  // namespace
+}  // namespace icome::speech
