@@ -347,6 +347,9 @@ void add_desktop_options(CLI::App& app, DesktopCommandOptions& options) {
       ->check(CLI::IsMember({"dark", "light"}));
   app.add_option("--menu", options.menu, "The haptic menu of the window (docs/elements.md), opened by Space")
       ->type_name("FILE.toml");
+  app.add_option("--microphone", options.microphone,
+                 "The microphone that voice commands come from, by name, or a recording")
+      ->type_name("NAME|WAV");
   add_device_options(app, options.devices);
 }
 
@@ -429,6 +432,8 @@ base::Result<DesktopCommandOptions> understood_desktop(const DesktopCommandOptio
         "and --device after touch.");
   if (!options.theme.empty()) return base::fail("--theme is for the window, and no command opens it.");
   if (!options.menu.empty()) return base::fail("--menu is for the window, and no command opens it.");
+  if (!options.microphone.empty())
+    return base::fail("--microphone is for the window, and no command opens it.");
   if (!options.design.empty())
     return base::fail(
         fmt::format("a command comes first, and its files after it: not \"{}\".", options.design.string()));

@@ -18,6 +18,7 @@ int run_desktop_window(int argc, char** argv, const DesktopCommandOptions& optio
   ui::DesktopOptions wanted;
   wanted.design = options.design;
   wanted.theme = options.theme;
+  wanted.microphone = options.microphone;
   if (!options.menu.empty()) {
     auto menu = interaction::read_element_file(options.menu);
     if (!menu) {

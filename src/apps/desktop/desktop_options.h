@@ -12,6 +12,7 @@ struct DesktopCommandOptions {
   DeviceChoice devices = {};
   std::string theme = {};           // "dark" or "light"; empty: as chosen before
   std::filesystem::path menu = {};  // of the haptic menu; empty: as chosen before
+  std::string microphone;           // or a recording; empty: the usual one
 };
 
 }  // namespace icome::apps

@@ -25,17 +25,25 @@ LanguageModel::LanguageModel(std::span<const Sentence> sentences, const std::set
     to.counts[word] += 1.0;
     to.sum += 1.0;
   };
+  const std::string begin(kBegin);
   for (const Sentence& sentence : sentences) {
-    std::string before, last(kBegin);
+    std::string before, last = begin;
     const auto take = [&](const std::string& word) {
-      add(words_, word);
-      add(after_word_[last], word);
-      if (!before.empty()) add(after_two_[{before, last}], word);
+      if (before.empty())
+        add(after_word_[last], word);
+      else
+        add(after_two_[{before, last}], word);
       before = std::exchange(last, word);
     };
     for (const std::string& word : sentence) take(word);
     take(std::string(kEnd));
   }
+  // Where less is known of the words before, a word counts once for each place that it was in: one that is
+  // often said, but only by itself, is unlikely after all others.
+  for (const auto& [two, followers] : after_two_)
+    for (const auto& [word, count] : followers.counts) add(after_word_[two.second], word);
+  for (const auto& [last, followers] : after_word_)
+    for (const auto& [word, count] : followers.counts) add(words_, word);
   for (const std::string& word : words)
     if (!words_.counts.contains(word)) add(words_, word);
 }

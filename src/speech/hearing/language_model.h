@@ -9,8 +9,9 @@
 
 namespace icome::speech {
 
-/// How likely each word is after the two before it, from example sentences: trigrams, smoothed as Witten and
-/// Bell do (1991), so that no word is impossible anywhere. A plain value.
+/// How likely each word is after the two before it, from example sentences: trigrams. Shorter ones, which are
+/// for words that were not seen after these two, are counted as Kneser and Ney do (1995), and get their share
+/// as Witten and Bell say (1991), so that no word is impossible anywhere. A plain value.
 class LanguageModel {
  public:
   using Sentence = std::vector<std::string>;

@@ -39,7 +39,7 @@ std::vector<Utterance> VoiceActivity::hear(Sound samples) {
 }
 
 void VoiceActivity::hear_frame(std::vector<Utterance>& done) {
-  const double level = level_of(frame_);
+  const double level = level_ = level_of(frame_);
   recent_.push_back(level);
   if (recent_.size() > kNoiseFrames) recent_.erase(recent_.begin());
   std::vector<double> sorted = recent_;

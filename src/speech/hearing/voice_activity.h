@@ -36,7 +36,8 @@ class VoiceActivity {
   /// The utterance that the end of the sound cuts off, if any.
   std::optional<Utterance> finish();
 
-  /// Level of the noise, dB below full scale.
+  /// Level of the last frame, dB below full scale, and of the noise.
+  double level() const { return level_; }
   double noise_level() const { return noise_; }
   bool is_speaking() const { return speaking_; }
 
@@ -48,7 +49,7 @@ class VoiceActivity {
   std::vector<std::int16_t> frame_;
   std::deque<std::int16_t> before_;  // the lead
   Utterance current_;
-  double time_ = 0.0, noise_ = -60.0;
+  double time_ = 0.0, level_ = -120.0, noise_ = -60.0;
   double loud_ = 0.0, quiet_ = 0.0;  // s, of the utterance: loud frames, and silence at its end
   std::vector<double> recent_;       // dB, of the last frames, for the noise
   bool speaking_ = false;

@@ -37,6 +37,8 @@ class FileActions {
   void recover(const std::filesystem::path& journal);
   /// Goes back to the file as it was last saved; to a new design where there is no file.
   void revert();
+  /// Begins a new design, likewise.
+  void leave() { start(); }
   void choose_and_open();
   /// Joins a design on a server, likewise.
   void open_address(const QString& address);

@@ -29,6 +29,8 @@ class MenuActions {
   void fill(QMenu& menu);
   /// Uses this menu instead of the one that was chosen before, as long as the program runs.
   void use(interaction::Element element) { own_ = std::move(element); }
+  /// The menu that toggle() opens. Fails where its file cannot be read.
+  base::Result<interaction::Element> element() const;
   /// Opens the menu there; the one that is open closes instead.
   void toggle(const session::MenuSpot& spot);
   /// Uses the menu of a file from now on; tells where that does not work.
@@ -37,7 +39,6 @@ class MenuActions {
   void refresh();
 
  private:
-  base::Result<interaction::Element> element() const;
   std::optional<bool> is_possible(const interaction::Widget& widget) const;
   void take_ticks_over(std::vector<interaction::Widget>& widgets) const;
   void choose_file();

@@ -345,6 +345,10 @@ void SceneTools::tick() {
   look_for_hovered();
 }
 
+std::optional<interaction::Ray> SceneTools::mouse_way() const {
+  return mouse_ ? std::optional(mouse_->ray(session_.view().now())) : std::nullopt;
+}
+
 std::string SceneTools::drag_words() const {
   std::string words = part_tool_.words();
   return words.empty() ? move_tool_.words() : words;

@@ -64,6 +64,8 @@ class SceneTools {
 
   /// The object under the mouse, as of the last tick (with Touch, under the hand); nothing while it drags.
   std::optional<world::ObjectId> hovered() const { return hovered_; }
+  /// The way that the mouse points; nothing: it is not over the scene.
+  std::optional<interaction::Ray> mouse_way() const;
   bool dragging() const { return move_tool_.dragging() || part_tool_.dragging() || shape_tool_.dragging(); }
   ShapeTool& shape_tool() { return shape_tool_; }
   /// Text on what has stopped the dragged objects, what they snap to, or which part of the selection can be

@@ -12,6 +12,7 @@ struct DesktopOptions {
   std::filesystem::path design = {};  // to open; empty: work left unsaved by a crash, or an empty design
   std::string theme = {};             // "dark", "light"; empty: as chosen before, or as the system has it
   std::optional<interaction::Element> menu = {};  // the haptic menu; none: as chosen before
+  std::string microphone = {};  // by name, or a recording that is heard instead; empty: the usual one
 };
 
 /// Opens the window on a session with these settings (apps chooses the devices) and runs until it is closed;

@@ -123,6 +123,9 @@ void MainWindow::make_tool_menu(QMenu& menu) {
   }
   menu.addSeparator();
   haptic_menu_.fill(menu);
+  voice_action_ = add_action(menu, "tool.voice", "&Voice Commands", QKeySequence("F8"),
+                             [this] { show_voice(voice_action_->isChecked()); });
+  voice_action_->setCheckable(true);
   menu.addSeparator();
   techniques_.fill(menu);
 }
@@ -177,6 +180,14 @@ void MainWindow::show_people() {
   people_dock_->show();
   people_dock_->raise();
   if (QWidget* const stop = first_stop(*people_)) go_to(*stop);
+}
+
+void MainWindow::show_voice(bool shown) {
+  voice_->setVisible(shown);
+  if (shown)
+    go_to(voice_->field());
+  else
+    scene_->take_keyboard();
 }
 
 void MainWindow::stop_asking() {
@@ -270,8 +281,8 @@ void MainWindow::show_scene_menu(QPointF at) {
 }
 
 void MainWindow::next_part() {
-  const std::array<QWidget*, 9> parts{scene_,     banner_,  shaping_, tree_, properties_,
-                                      operation_, devices_, people_,  hand_};
+  const std::array<QWidget*, 10> parts{scene_,      banner_,    shaping_, voice_,  tree_,
+                                       properties_, operation_, devices_, people_, hand_};
   const QWidget* const focus = QApplication::focusWidget();
   auto found = std::find_if(parts.begin(), parts.end(),
                             [&](const QWidget* it) { return focus && it->isAncestorOf(focus); });

@@ -74,7 +74,13 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
                    {.begin = [this] { return finish_work(); },
                     .tell = [this](const Note& note) { tell(note); },
                     .ask = [this](const interaction::Operation& it) { ask(it); }},
-                   *this) {
+                   *this),
+      conversation_(session, {.begin = [this] { return finish_work(); },
+                              .mouse = [this] { return tools_.mouse_way(); },
+                              .save = [this] { files_.save(); },
+                              .close_design = [this] { files_.leave(); },
+                              .menu = [this] { return haptic_menu_.element(); },
+                              .open_menu = [this] { haptic_menu_.toggle({}); }}) {
   if (options_.menu) haptic_menu_.use(*options_.menu);
   setObjectName("icome");
   setWindowIcon(app_icon());
@@ -121,10 +127,19 @@ void MainWindow::make_center() {
   banner_ = new Banner(center);
   shaping_ = new ShapeOptions(session_, tools_.shape_tool(), center);
   scene_ = new SceneView(session_, tools_, center);
+  voice_ = new VoiceBar(
+      conversation_, options_.microphone ? options_.microphone : [] { return speech::open_microphone(); },
+      [this] { scene_->take_keyboard(); }, center);
+  voice_->hide();
+  conversation_.on_answer([this](const session::Spoken& spoken) {
+    voice_->show_answer(spoken);
+    is_stale_ = true;
+  });
   scene_->window_of_scene().on_drop([this](QDropEvent& drop) { return offer_drop(drop, true); });
   rows->addWidget(banner_);
   rows->addWidget(shaping_);
   rows->addWidget(scene_, 1);
+  rows->addWidget(voice_);
   setCentralWidget(center);
   hint_ = new ElidedLabel(this);
   hint_->setObjectName("status.hint");
@@ -203,6 +218,8 @@ void MainWindow::tick() {
     hear(event);
   }
   pictures_.tick();
+  conversation_.tick();
+  voice_->tick();
   scene_->tick();
   shaping_->tick();
   edits_.refresh();
@@ -364,6 +381,13 @@ void MainWindow::show_look() {
       wish.name_signs[it.author] = name_signs_[it.author].picture(shortened(one_line(it.name)), pixel_ratio_);
   if (labelled_) {
     if (auto panel = label_.panel(session_, *labelled_, pixel_ratio_))
+      wish.look.overlay.panels.push_back(std::move(*panel));
+  }
+  const std::vector<world::ObjectId>& asked = conversation_.candidates();
+  numbers_.resize(asked.size());
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const auto& number = numbers_[i].picture(QString::number(i + 1), pixel_ratio_);
+    if (auto panel = panel_above(session_, asked[i], number, pixel_ratio_))
       wish.look.overlay.panels.push_back(std::move(*panel));
   }
   session_.view().set_look(wish);

@@ -21,6 +21,7 @@
 #include "ui/sharing/sharing_panel.h"
 #include "ui/tools/scene_tools.h"
 #include "ui/tools/shape_options.h"
+#include "ui/voice/voice_bar.h"
 #include "ui/window/banner.h"
 #include "ui/window/scene_label.h"
 #include "ui/window/scene_view.h"
@@ -38,6 +39,7 @@ class MainWindow final : public QMainWindow {
     Theme theme = Theme::System;
     DeviceWays devices = {};
     std::optional<interaction::Element> menu = {};  // the haptic menu; none: as chosen before
+    speech::OpenSource microphone = nullptr;        // that voice commands come from; none: the usual one
   };
   MainWindow(session::Session& session, QSettings& settings, const Options& options);
   ~MainWindow() override;
@@ -76,6 +78,7 @@ class MainWindow final : public QMainWindow {
   void show_scene_menu(QPointF at);
   void show_shortcuts();
   void next_part();
+  void show_voice(bool shown);
   void ask(const interaction::Operation& operation);
   void stop_asking();
   void show_devices();
@@ -99,9 +102,12 @@ class MainWindow final : public QMainWindow {
   MoveActions moves_;
   PictureActions pictures_;
   MenuActions haptic_menu_;
+  session::Conversation conversation_;
   Banner* banner_ = nullptr;
   ShapeOptions* shaping_ = nullptr;  // shown with its tool
   SceneView* scene_ = nullptr;
+  VoiceBar* voice_ = nullptr;  // shown while voice commands are
+  QAction* voice_action_ = nullptr;
   WorldTree* tree_ = nullptr;
   PropertyPanel* properties_ = nullptr;
   OperationPanel* operation_ = nullptr;
@@ -119,6 +125,7 @@ class MainWindow final : public QMainWindow {
   QTimer timer_;
   bool is_stale_ = true;  // hint and look must be refreshed
   SceneLabel label_;
+  std::vector<SceneWords> numbers_;  // of the things that a question is about
   SceneWords spared_sign_;
   std::map<std::uint32_t, SceneWords> name_signs_;  // of others at work in the design
   QString sharing_state_;                           // as shown

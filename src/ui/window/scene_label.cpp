@@ -53,6 +53,20 @@ const std::shared_ptr<const charts::Image>& SceneWords::picture(const QString& t
   return picture_;
 }
 
+std::optional<render::SceneOverlay::Panel> panel_above(const session::Session& session, world::ObjectId id,
+                                                       const std::shared_ptr<const charts::Image>& picture,
+                                                       double pixel_ratio) {
+  if (session.world().find(id) == nullptr) return std::nullopt;
+  const base::Bounds bounds = world::bounds(session.world(), id);
+  if (bounds.isEmpty()) return std::nullopt;
+  base::Vector3 above = bounds.center();
+  above.y() = bounds.max().y();
+  return render::SceneOverlay::Panel{.picture = picture,
+                                     .at = above,
+                                     .anchor = {0.5, 0.0},
+                                     .shift = {0.0, std::round(2.0 * kGrid * pixel_ratio)}};
+}
+
 std::optional<render::SceneOverlay::Panel> SceneLabel::panel(const session::Session& session,
                                                              world::ObjectId id, double pixel_ratio) {
   const world::PhysicalObject* object = session.world().find(id);
@@ -60,14 +74,7 @@ std::optional<render::SceneOverlay::Panel> SceneLabel::panel(const session::Sess
   if (const auto holder = session.sharing().holder_of(id))
     text += QString("%1%2 has it").arg(text.isEmpty() ? "" : " \u2013 ", shortened(one_line(holder->name)));
   if (text.isEmpty()) return std::nullopt;
-  const base::Bounds bounds = world::bounds(session.world(), id);
-  if (bounds.isEmpty()) return std::nullopt;
-  base::Vector3 above = bounds.center();
-  above.y() = bounds.max().y();
-  return render::SceneOverlay::Panel{.picture = words_.picture(text, pixel_ratio),
-                                     .at = above,
-                                     .anchor = {0.5, 0.0},
-                                     .shift = {0.0, std::round(2.0 * kGrid * pixel_ratio)}};
+  return panel_above(session, id, words_.picture(text, pixel_ratio), pixel_ratio);
 }
 
 }  // namespace icome::ui

@@ -24,6 +24,12 @@ class SceneWords {
   std::shared_ptr<const charts::Image> picture_ = nullptr;  // of that look
 };
 
+/// A picture above an object in the scene; nothing for one that is gone or has no place.
+std::optional<render::SceneOverlay::Panel> panel_above(const session::Session& session,
+                                                       world::ObjectId object,
+                                                       const std::shared_ptr<const charts::Image>& picture,
+                                                       double pixel_ratio);
+
 /// The name of an object, written above it in the scene, and who else holds it. Used on main only.
 class SceneLabel {
  public:

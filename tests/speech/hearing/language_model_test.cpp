@@ -12,10 +12,10 @@ namespace {
 const std::vector<LanguageModel::Sentence> kSaid{
     {"delete", "the", "box"}, {"delete", "the", "red", "box"}, {"delete", "it"}, {"undo"}, {"undo", "that"}};
 
-TEST(LanguageModel, IsAsWittenAndBellSay) {
+TEST(LanguageModel, IsAsKneserAndNeyAndWittenAndBellSay) {
   const LanguageModel model(kSaid);
-  // 17 words and ends, of which "box" are 2; after "the" came "box" and "red", once each: half is for others.
-  const double box = 2.0 / 17.0, after_the = 0.5 * 0.5 + 0.5 * box;
+  // Of 12 pairs of words that are seen, "box" ends 2; after "the" come "box" and "red": half is for others.
+  const double box = 2.0 / 12.0, after_the = 0.5 * 0.5 + 0.5 * box;
   EXPECT_NEAR(model.probability({}, "box"), box, 1e-12);
   EXPECT_NEAR(model.probability(std::vector<std::string>{"the"}, "box"), after_the, 1e-12);
   // After "delete the" the same two came.

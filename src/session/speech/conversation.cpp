@@ -1,0 +1,175 @@
+#include "session/speech/conversation.h"
+
+#include <chrono>
+#include <utility>
+
+#include "interaction/operations/operation_runner.h"
+#include "session/speech/spoken_stage.h"
+#include "speech/hearing/likely_meant.h"
+#include "speech/words/own_words.h"
+
+namespace icome::session {
+namespace {
+
+using base::Result;
+using speech::Dialogue;
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// The world of a session, each sentence an action of its history.
+class SpokenTarget final : public interaction::OperationTarget {
+ public:
+  SpokenTarget(Session& session, const ConversationHooks& hooks) : session_(session), hooks_(hooks) {}
+
+  const world::World& world() const override { return session_.world(); }
+  world::IdSource& ids() override { return session_.ids(); }
+  Result<void> act(const world::Edit& edit, const std::string& title) override {
+    if (!hooks_.begin()) return base::fail("what is being typed must be put right first");
+    return session_.history().perform(edit, title);
+  }
+  Result<void> undo() override { return session_.history().undo(); }
+  Result<void> redo() override { return session_.history().redo(); }
+  bool can_undo() const override { return session_.history().can_undo(); }
+  bool can_redo() const override { return session_.history().can_redo(); }
+
+ private:
+  Session& session_;
+  const ConversationHooks& hooks_;
+};
+
+/// Words of one's own, and why they are not kept.
+std::pair<speech::OwnWords, std::string> usual_words() {
+  auto words = speech::OwnWords::open(speech::OwnWords::usual_file());
+  if (!words) return {speech::OwnWords(), words.error().message};
+  return {std::move(*words), {}};
+}
+
+}  // namespace
+
+struct Conversation::Parts {
+  Parts(Session& the_session, ConversationHooks the_hooks)
+      : session(the_session),
+        hooks(std::move(the_hooks)),
+        target(session, hooks),
+        stage(session, hooks),
+        words(usual_words()) {}
+
+  /// Nothing was spoken of yet.
+  void begin() {
+    is_another = false;
+    dialogue = std::make_unique<Dialogue>(*speech::built_in_vocabulary(), target, stage, words.first);
+    candidates.clear();
+    is_new = true;
+  }
+
+  Dialogue& talk() {
+    if (!dialogue || is_another) begin();
+    return *dialogue;
+  }
+
+  void answer(Spoken spoken) {
+    candidates = spoken.answer.candidates;
+    // What was made or changed is selected, as after any operation.
+    if (!spoken.answer.operations.empty() && !spoken.answer.objects.empty())
+      session.select(spoken.answer.objects);
+    is_new = true;
+    listener(spoken);
+  }
+
+  void understand(const speech::HeardUtterance& utterance) {
+    talk().vocabulary();
+    const speech::Heard* const meant = speech::likely_meant(utterance.sentences, *dialogue);
+    Spoken spoken{.by_voice = true, .seconds = utterance.seconds};
+    if (meant == nullptr) {
+      spoken.answer.reply = "That was no sentence that I know.";
+      return answer(std::move(spoken));
+    }
+    speech::WordTimes times{.now = utterance.end};
+    for (const speech::HeardWord& word : meant->words) times.words.push_back(utterance.begin + word.begin);
+    spoken.score = meant->score;
+    spoken.answer = dialogue->hear(meant->sentence(), times);
+    answer(std::move(spoken));
+  }
+
+  /// Tells the ear what can be said now, where that may have changed; seldom, as it learns it anew each time.
+  void follow() {
+    constexpr double kSeldom = 0.5;  // s
+    const double time = now();
+    if (!is_new || time < told_at + kSeldom) return;
+    is_new = false;
+    told_at = time;
+    const speech::Grammar& grammar = talk().vocabulary().grammar;
+    std::string text = grammar.jsgf(Dialogue::kSentence, "icome");
+    if (text == told) return;
+    told = std::move(text);
+    ear->expect(grammar, std::string(Dialogue::kSentence), std::string(Dialogue::kUsualSentence));
+  }
+
+  Session& session;
+  ConversationHooks hooks;
+  SpokenTarget target;
+  SpokenStage stage;
+  std::pair<speech::OwnWords, std::string> words;
+  std::unique_ptr<Dialogue> dialogue;  // null before the first sentence
+  std::unique_ptr<speech::Ear> ear;    // null: it does not listen
+  std::function<void(const Spoken&)> listener = [](const Spoken&) {};
+  std::vector<world::ObjectId> candidates;
+  bool is_another = false;  // is there another design than the one that was spoken of?
+  bool is_new = true;       // may something else be said than what the ear was told?
+  bool had_menu = false;    // at the last tick
+  std::string told;         // the grammar that the ear was told
+  double told_at = -1e9;    // s
+};
+
+Conversation::Conversation(Session& session, ConversationHooks hooks)
+    : parts_(std::make_shared<Parts>(session, std::move(hooks))) {
+  // The session keeps its listeners as long as it lives, which is longer.
+  session.on_change([parts = std::weak_ptr<Parts>(parts_)](const world::Changes* changes) {
+    const auto there = parts.lock();
+    if (!there) return;
+    there->is_new = true;
+    there->is_another = there->is_another || changes == nullptr;
+  });
+}
+
+Conversation::~Conversation() = default;
+
+void Conversation::say(const std::string& sentence) {
+  parts_->stage.keep_hand(now());
+  parts_->answer({.answer = parts_->talk().hear(sentence, {.now = now()})});
+}
+
+void Conversation::listen(speech::OpenSource source) {
+  parts_->ear.reset();
+  parts_->told.clear();
+  parts_->told_at = -1e9;
+  parts_->is_new = true;
+  if (source)
+    parts_->ear =
+        std::make_unique<speech::Ear>(std::move(source), [] { return speech::make_sphinx_recogniser(); });
+}
+
+bool Conversation::listens() const { return parts_->ear != nullptr; }
+
+speech::EarState Conversation::ear() const { return parts_->ear ? parts_->ear->state() : speech::EarState(); }
+
+void Conversation::tick() {
+  if (!parts_->ear) return;
+  parts_->stage.keep_hand(now());
+  const bool has_menu = parts_->session.menu().use() != nullptr;
+  if (std::exchange(parts_->had_menu, has_menu) != has_menu) parts_->is_new = true;
+  parts_->follow();
+  for (const speech::HeardUtterance& utterance : parts_->ear->take()) parts_->understand(utterance);
+}
+
+void Conversation::on_answer(std::function<void(const Spoken&)> listener) {
+  parts_->listener = std::move(listener);
+}
+
+const std::vector<world::ObjectId>& Conversation::candidates() const { return parts_->candidates; }
+
+const std::string& Conversation::problem() const { return parts_->words.second; }
+
+}  // namespace icome::session

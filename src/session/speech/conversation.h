@@ -1,0 +1,67 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interaction/elements/element.h"
+#include "session/session.h"
+#include "speech/dialogue/dialogue.h"
+#include "speech/listening/ear.h"
+
+namespace icome::session {
+
+/// A sentence, and what came of it.
+struct Spoken {
+  speech::Answer answer = {};
+  bool by_voice = false;
+  double score = 0.0;    // speech::Heard::score, by voice
+  double seconds = 0.0;  // by voice: from the end of speech, as it was noticed, to its meaning
+};
+
+/// What a conversation needs of a window. All are called on main.
+struct ConversationHooks {
+  /// Asked before the world is edited; false: do not.
+  std::function<bool()> begin = [] { return true; };
+  /// The way that the mouse points; nothing: it is not over the scene.
+  std::function<std::optional<interaction::Ray>()> mouse = [] { return std::nullopt; };
+  std::function<void()> save = nullptr;          // none: it cannot
+  std::function<void()> close_design = nullptr;  // none: it cannot
+  /// The haptic menu that open_menu opens; none: there is no menu.
+  std::function<base::Result<interaction::Element>()> menu = nullptr;
+  std::function<void()> open_menu = [] {};
+};
+
+/// Talks with a person about the design of a session (thesis 7.4, 8.2): typed sentences, and spoken ones
+/// while it listens. Left, right, in front and behind are those of the view; the hand is that of a device
+/// or, without one, where the mouse points. Main's; the session outlives it.
+class Conversation {
+ public:
+  Conversation(Session& session, ConversationHooks hooks);
+  ~Conversation();
+  Conversation(const Conversation&) = delete;
+  Conversation& operator=(const Conversation&) = delete;
+
+  /// Understands a sentence and does it; the listener of on_answer() is told, too.
+  void say(const std::string& sentence);
+  /// Listens from now on to this source; without one, not any more.
+  void listen(speech::OpenSource source);
+  bool listens() const;
+  speech::EarState ear() const;
+  /// While it listens: understands what was heard, and keeps where the hand is. Call it once for each update
+  /// of the session.
+  void tick();
+  /// Calls `listener` on main with each sentence that was understood, or was not.
+  void on_answer(std::function<void(const Spoken&)> listener);
+  /// The objects of the question "Which one?" that is open, in the order of their numbers.
+  const std::vector<world::ObjectId>& candidates() const;
+  /// Why words of one's own are not kept; empty: they are.
+  const std::string& problem() const;
+
+ private:
+  struct Parts;
+  std::shared_ptr<Parts> parts_;
+};
+
+}  // namespace icome::session

@@ -1,0 +1,76 @@
+#pragma once
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "speech/hearing/recogniser.h"
+#include "speech/hearing/voice_activity.h"
+#include "speech/listening/sound_source.h"
+
+namespace icome::speech {
+
+/// What somebody said while the ear listened.
+struct HeardUtterance {
+  double begin = 0.0, end = 0.0;      // s, of its sound and of its last word; the steady clock
+  std::vector<Heard> sentences = {};  // as Recogniser::recognise(); their times are from `begin`
+  double seconds = 0.0;               // from the end of the utterance to this
+};
+
+/// What an ear does now.
+struct EarState {
+  enum class Doing : std::uint8_t { Starting, Listening, Hearing, Understanding, Lost };
+
+  Doing doing = Doing::Starting;
+  double level = -100.0, noise = -100.0;  // dB below full scale: of the sound now, and of the noise
+  std::string problem = {};               // why it hears nothing, a sentence; empty: it does
+  std::vector<std::string> silent = {};   // words that cannot be heard, as they have no sounds
+};
+
+/// Listens and recognises on a thread of its own, so that whoever owns it never waits. A source that is lost
+/// is looked for every two seconds.
+class Ear {
+ public:
+  using MakeRecogniser = std::function<base::Result<std::unique_ptr<Recogniser>>()>;
+
+  Ear(OpenSource open, MakeRecogniser make);
+  ~Ear();
+  Ear(const Ear&) = delete;
+  Ear& operator=(const Ear&) = delete;
+
+  /// Sentences of these rules are recognised from now on; before the first call the source is not opened.
+  void expect(Grammar grammar, std::string sentence, std::string usual);
+  /// What was heard since the last call.
+  std::vector<HeardUtterance> take();
+  EarState state() const;
+
+ private:
+  struct Expected {
+    Grammar grammar;
+    std::string sentence, usual;
+  };
+
+  void run(const std::stop_token& stop);
+  void listen(SoundSource& source, Recogniser& recogniser, const std::stop_token& stop);
+  void follow(Recogniser& recogniser);
+  void understand(Recogniser& recogniser, Utterance utterance, double clock);
+  void pause(double seconds, const std::stop_token& stop);
+  template <typename Change>
+  void change(const Change& change);
+
+  OpenSource open_;
+  MakeRecogniser make_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any waits_;
+  std::optional<Expected> expected_;  // what the recogniser does not know yet
+  bool knows_ = false;                // has the recogniser a grammar? Its thread's
+  EarState state_;
+  std::vector<HeardUtterance> heard_;
+  std::jthread thread_;  // the last one, as it uses all others
+};
+
+}  // namespace icome::speech

@@ -1,0 +1,130 @@
+// An ear with a microphone and a recogniser that are played, as no sound device is needed.
+#include "speech/listening/ear.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+namespace icome::speech {
+namespace {
+
+using std::chrono::steady_clock;
+
+/// A tone between pauses, over and over; it is lost when it is told so.
+class Whistle final : public SoundSource {
+ public:
+  explicit Whistle(const std::atomic<bool>& lost) : lost_(lost) {}
+
+  base::Result<std::vector<std::int16_t>> read() override {
+    if (lost_) return base::fail("the whistle was lost");
+    const std::chrono::duration<double> passed = steady_clock::now() - begun_;
+    std::vector<std::int16_t> samples;
+    for (; double(count_) < passed.count() * kSampleRate; ++count_) {
+      const double time = double(count_) / kSampleRate;
+      const bool sounds = std::fmod(time, 1.0) > 0.3 && std::fmod(time, 1.0) < 0.6;
+      samples.push_back(
+          std::int16_t(sounds ? 4000.0 * std::sin(2.0 * std::numbers::pi * 400.0 * time) : count_ % 7));
+    }
+    return samples;
+  }
+
+ private:
+  const std::atomic<bool>& lost_;
+  steady_clock::time_point begun_ = steady_clock::now();
+  std::size_t count_ = 0;
+};
+
+/// Hears "yes" in everything.
+class YesHearer final : public Recogniser {
+ public:
+  base::Result<std::vector<std::string>> set_grammar(const Grammar&, const HeardRules& rules) override {
+    if (rules.sentence != "s") return base::fail("there is no such rule");
+    return std::vector<std::string>{"xyzzy"};
+  }
+  base::Result<std::vector<Heard>> recognise(Sound) override {
+    return std::vector<Heard>{{.words = {{"yes", 0.1, 0.3}}}};
+  }
+};
+
+base::Result<std::unique_ptr<Recogniser>> yes_hearer() {
+  return std::unique_ptr<Recogniser>(std::make_unique<YesHearer>());
+}
+
+template <typename Come>
+bool until(const Come& come) {
+  const auto begun = steady_clock::now();
+  while (steady_clock::now() - begun < std::chrono::seconds(30)) {
+    if (come()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+TEST(Ear, TellsWhatWasSaidAndWhen) {
+  std::atomic<bool> lost = false;
+  Ear ear([&]() -> base::Result<std::unique_ptr<SoundSource>> { return std::make_unique<Whistle>(lost); },
+          yes_hearer);
+  ear.expect({}, "s", "often");
+  std::vector<HeardUtterance> all;
+  ASSERT_TRUE(until([&] {
+    for (HeardUtterance& it : ear.take()) all.push_back(std::move(it));
+    return all.size() >= 2;
+  }));
+  for (const HeardUtterance& it : all) {
+    ASSERT_EQ(it.sentences.size(), 1U);
+    EXPECT_EQ(it.sentences.front().sentence(), "yes");
+    EXPECT_GE(it.seconds, 0.0);
+    EXPECT_NEAR(it.end - it.begin, 0.5, 0.1);  // the lead is 0.2 s
+  }
+  // The whistle comes once a second.
+  EXPECT_NEAR(all[1].begin - all[0].begin, 1.0, 0.1);
+  const double now = std::chrono::duration<double>(steady_clock::now().time_since_epoch()).count();
+  EXPECT_GT(now, all[1].end);
+  EXPECT_LT(now, all[1].end + 20.0);
+  EXPECT_EQ(ear.state().silent, std::vector<std::string>{"xyzzy"});
+  EXPECT_TRUE(ear.state().problem.empty());
+}
+
+TEST(Ear, LooksForAMicrophoneThatWasLost) {
+  std::atomic<bool> lost = false;
+  Ear ear(
+      [&]() -> base::Result<std::unique_ptr<SoundSource>> {
+        if (lost) return base::fail("there is no whistle");
+        return std::make_unique<Whistle>(lost);
+      },
+      yes_hearer);
+  ear.expect({}, "s", "often");
+  ASSERT_TRUE(until([&] { return ear.state().doing == EarState::Doing::Listening; }));
+  lost = true;
+  ASSERT_TRUE(until([&] { return ear.state().doing == EarState::Doing::Lost; }));
+  EXPECT_NE(ear.state().problem.find("whistle"), std::string::npos);
+  lost = false;
+  ASSERT_TRUE(until([&] { return ear.state().doing == EarState::Doing::Listening; }));
+  EXPECT_TRUE(ear.state().problem.empty());
+}
+
+TEST(Ear, TellsWhyItHearsNothing) {
+  Ear deaf([]() -> base::Result<std::unique_ptr<SoundSource>> { return base::fail("no sound here"); },
+           []() -> base::Result<std::unique_ptr<Recogniser>> { return base::fail("no model of English"); });
+  EXPECT_TRUE(until([&] { return deaf.state().problem == "no model of English"; }));
+  std::atomic<bool> lost = false;
+  Ear ear([&]() -> base::Result<std::unique_ptr<SoundSource>> { return std::make_unique<Whistle>(lost); },
+          yes_hearer);
+  ear.expect({}, "another rule", "often");
+  EXPECT_TRUE(until([&] { return ear.state().problem == "there is no such rule"; }));
+  EXPECT_TRUE(ear.take().empty());
+}
+
+TEST(Microphone, ThatIsNotThereIsTold) {
+  const auto microphone = open_microphone("a microphone that nobody has");
+  ASSERT_FALSE(microphone);
+  EXPECT_NE(microphone.error().message.find("microphone"), std::string::npos) << microphone.error().message;
+  EXPECT_FALSE(open_recording("/no/such/recording.wav"));
+}
+
+}  // namespace
+}  // namespace icome::speech

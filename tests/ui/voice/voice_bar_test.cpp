@@ -1,0 +1,117 @@
+// Voice commands of the window, typed and spoken.
+#include "ui/voice/voice_bar.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "places.h"
+#include "ui/window_test.h"
+
+namespace icome::ui {
+namespace {
+
+class VoiceBarTest : public WindowTest {
+ protected:
+  VoiceBarTest() { action("tool.voice")->trigger(); }
+
+  void type(const QString& sentence) {
+    auto* const field = window_->findChild<QLineEdit*>("voice.sentence");
+    field->setText(sentence);
+    emit field->returnPressed();
+  }
+  QString text(const char* name) { return window_->findChild<QLabel*>(name)->text(); }
+  VoiceAgent::Mood mood() {
+    return static_cast<VoiceAgent*>(window_->findChild<QWidget*>("voice.agent"))->mood();
+  }
+  std::vector<world::ObjectId> named(const std::string& name) {
+    std::vector<world::ObjectId> found;
+    for (const auto& [id, object] : world().objects())
+      if (object.name.starts_with(name)) found.push_back(id);
+    return found;
+  }
+};
+
+TEST_F(VoiceBarTest, TypedSentencesMakeThingsAndAreUndone) {
+  EXPECT_TRUE(window_->findChild<QWidget*>("voice")->isVisible());
+  type("create a small red sphere");
+  ASSERT_EQ(named("sphere").size(), 1U);
+  EXPECT_EQ(text("voice.reply"), "Small red sphere.");
+  EXPECT_TRUE(text("voice.heard").contains("create a small red sphere"));
+  EXPECT_EQ(mood(), VoiceAgent::Mood::Understood);
+  EXPECT_EQ(session().selection(), named("sphere"));
+  type("make it blue");
+  type("undo");
+  type("undo that");
+  EXPECT_TRUE(named("sphere").empty());
+  type("a purple elephant");
+  EXPECT_EQ(mood(), VoiceAgent::Mood::Puzzled);
+  EXPECT_EQ(world().objects().size(), 0U);
+}
+
+TEST_F(VoiceBarTest, LeftAndRightAreThoseOfTheView) {
+  type("a red box");
+  // From behind, what stands left of it is at larger x.
+  auto view = session().view().now();
+  view.world_from_eye = base::Pose(Eigen::AngleAxisd(M_PI, base::Vector3::UnitY()));
+  view.world_from_eye.translation() = base::Vector3(0.0, 0.1, -1.0);
+  session().view().set(view);
+  type("a blue cone left of the red box");
+  const auto boxes = named("box"), cones = named("cone");
+  ASSERT_EQ(boxes.size() + cones.size(), 2U);
+  const auto x = [&](world::ObjectId id) { return world::bounds(world(), id).center().x(); };
+  EXPECT_GT(x(cones[0]), x(boxes[0]) + 0.05);
+}
+
+TEST_F(VoiceBarTest, AQuestionNumbersItsCandidates) {
+  type("two green cones");
+  session().select({});
+  type("select the green cone");
+  EXPECT_EQ(mood(), VoiceAgent::Mood::Asking);
+  EXPECT_TRUE(text("voice.reply").startsWith("Which one"));
+  EXPECT_TRUE(session().selection().empty());
+  type("the left one");
+  EXPECT_EQ(session().selection().size(), 1U);
+}
+
+TEST_F(VoiceBarTest, MenusAreOpenedAndChosenFrom) {
+  type("open the menu");
+  ASSERT_NE(session().menu().use(), nullptr) << text("voice.reply").toStdString();
+  type("close the menu");
+  EXPECT_EQ(session().menu().use(), nullptr);
+  type("open the new menu");
+  ASSERT_NE(session().menu().use(), nullptr) << text("voice.reply").toStdString();
+  type("choose ball");
+  EXPECT_TRUE(until([&] { return named("sphere").size() == 1; })) << text("voice.reply").toStdString();
+}
+
+TEST_F(VoiceBarTest, AnotherDesignIsSpokenOfAnew) {
+  type("a red box");
+  session().files().make_new();
+  ASSERT_TRUE(until([&] { return world().objects().empty(); }));
+  type("make it blue");
+  EXPECT_EQ(mood(), VoiceAgent::Mood::Puzzled);
+  type("a blue box");
+  EXPECT_EQ(named("box").size(), 1U);
+}
+
+TEST_F(VoiceBarTest, ListensToAPersonWhoSaysYes) {
+  const auto file = places::shared_data() / "speech" / "speech_commands" / "yes_1.wav";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  session::Conversation conversation(session(), {});
+  std::vector<session::Spoken> all;
+  conversation.on_answer([&](const session::Spoken& spoken) { all.push_back(spoken); });
+  conversation.listen([file] { return speech::open_recording(file.string()); });
+  EXPECT_TRUE(conversation.listens());
+  ASSERT_TRUE(until([&] {
+    conversation.tick();
+    return !all.empty();
+  })) << conversation.ear().problem;
+  EXPECT_EQ(all.front().answer.heard, "yes");
+  EXPECT_TRUE(all.front().by_voice);
+  EXPECT_LT(all.front().score, 0.0);
+  conversation.listen(nullptr);
+  EXPECT_FALSE(conversation.listens());
+}
+
+}  // namespace
+}  // namespace icome::ui
