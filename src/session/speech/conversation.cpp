@@ -41,9 +41,12 @@ class SpokenTarget final : public interaction::OperationTarget {
 
 /// Words of one's own, and why they are not kept.
 std::pair<speech::OwnWords, std::string> usual_words() {
-  auto words = speech::OwnWords::open(speech::OwnWords::usual_file());
-  if (!words) return {speech::OwnWords(), words.error().message};
-  return {std::move(*words), {}};
+  std::pair<speech::OwnWords, std::string> made;
+  if (auto words = speech::OwnWords::open(speech::OwnWords::usual_file()))
+    made.first = std::move(*words);
+  else
+    made.second = words.error().message;
+  return made;
 }
 
 }  // namespace
