@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <thread>
+#include <utility>
+
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
 #include "apps/speech/answer_text.h"
@@ -11,6 +15,7 @@
 #include "speech/hearing/likely_meant.h"
 #include "speech/hearing/recording.h"
 #include "speech/hearing/voice_activity.h"
+#include "speech/listening/ear.h"
 
 namespace icome::apps {
 namespace {
@@ -18,75 +23,121 @@ namespace {
 using base::Result;
 using interaction::Value;
 
-/// Understands the utterances of recordings, one after the other.
+/// Where an utterance was heard, s from the beginning of all that is heard.
+struct Place {
+  std::string file;  // or kMicrophone
+  double begin = 0.0, end = 0.0;
+  double file_begin = 0.0;  // of the file, whose times are told
+};
+constexpr const char* kMicrophone = "microphone";
+
+/// Understands utterances, one after the other.
 class Listener {
  public:
-  Listener(const ListenOptions& options, Talk& talk, speech::Recogniser& recogniser)
-      : options_(options), talk_(talk), recogniser_(recogniser) {
+  Listener(const ListenOptions& options, Talk& talk) : options_(options), talk_(talk) {
     if (options.least_score) limits_.least_score = *options.least_score;
   }
 
-  Result<void> hear_recording(const std::filesystem::path& file) {
+  Result<void> hear_recording(const std::filesystem::path& file, speech::Recogniser& recogniser) {
     const auto sound = speech::read_recording(file);
     if (!sound) return tl::unexpected(sound.error());
     const auto utterances = speech::utterances_of(*sound, {.hang = options_.hang});
     for (const speech::Utterance& utterance : utterances) {
       if (interrupted()) return base::fail("interrupted");
-      if (const auto heard = hear_utterance(utterance, file); !heard) return heard;
+      const Stopwatch watch;
+      if (const auto* const grammar = new_grammar()) {
+        const auto silent =
+            recogniser.set_grammar(*grammar, {speech::Dialogue::kSentence, speech::Dialogue::kUsualSentence});
+        if (!silent) return tl::unexpected(silent.error());
+        tell_silent(*silent);
+      }
+      const auto heard = recogniser.recognise(utterance.samples);
+      if (!heard) return tl::unexpected(heard.error());
+      const Place place{file.string(), time_ + utterance.begin, time_ + utterance.speech_end, time_};
+      if (const auto told = understand(*heard, place, watch); !told) return told;
     }
     if (utterances.empty() && !options_.talk.json) print(fmt::format("{}: nobody speaks\n", file.string()));
     time_ += double(sound->size()) / speech::kSampleRate;
     return {};
   }
 
+  /// Listens until Ctrl-C. Fails where there is no microphone; one that is lost later is told, and looked
+  /// for.
+  Result<void> hear_microphone(std::unique_ptr<speech::Recogniser> recogniser) {
+    if (const auto there = speech::open_microphone(options_.microphone); !there)
+      return base::fail(there.error().message + "; give it recordings instead");
+    const double begin = steady_seconds();
+    speech::Ear ear([this] { return speech::open_microphone(options_.microphone); },
+                    [&]() -> Result<std::unique_ptr<speech::Recogniser>> { return std::move(recogniser); },
+                    {.hang = options_.hang});
+    std::string problem;
+    bool listens = false;
+    while (!interrupted()) {
+      if (const auto* const grammar = new_grammar())
+        ear.expect(*grammar, std::string(speech::Dialogue::kSentence),
+                   std::string(speech::Dialogue::kUsualSentence));
+      for (const speech::HeardUtterance& it : ear.take()) {
+        const Stopwatch watch;
+        const Place place{kMicrophone, it.begin - begin, it.end - begin, 0.0};
+        if (const auto told = understand(it.sentences, place, watch, it.seconds); !told) return told;
+      }
+      const speech::EarState state = ear.state();
+      tell_silent(state.silent);
+      if (std::exchange(problem, state.problem) != problem && !problem.empty()) tell(problem);
+      const bool is_listening = state.doing >= speech::EarState::Doing::Listening && problem.empty();
+      if (std::exchange(listens, is_listening) != listens && listens) tell("listening; Ctrl-C ends it");
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return {};
+  }
+
  private:
-  Result<void> hear_utterance(const speech::Utterance& utterance, const std::filesystem::path& file) {
-    const Stopwatch watch;
-    if (const auto ready = follow_grammar(); !ready) return ready;
-    const auto heard = recogniser_.recognise(utterance.samples);
-    if (!heard) return tl::unexpected(heard.error());
+  static double steady_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
+
+  /// `before`: s that recognising took before the watch began.
+  Result<void> understand(const std::vector<speech::Heard>& heard, const Place& place, const Stopwatch& watch,
+                          double before = 0.0) {
     // Without --apply each is understood by itself.
     std::unique_ptr<Talk> own = options_.apply ? nullptr : talk_.beginning();
     Talk& talk = own ? *own : talk_;
     talk.dialogue().vocabulary();
-    const speech::Heard* const meant = speech::likely_meant(*heard, talk.dialogue(), limits_);
+    const speech::Heard* const meant = speech::likely_meant(heard, talk.dialogue(), limits_);
+    const speech::Heard nearest = meant != nullptr ? *meant : heard.empty() ? speech::Heard{} : heard.front();
     speech::Answer answer{.reply = "That was no sentence that I know."};
-    if (meant != nullptr) answer = talk.dialogue().hear(meant->sentence(), times_of(*meant, utterance));
-    const speech::Heard nearest = meant != nullptr ? *meant
-                                  : heard->empty() ? speech::Heard{}
-                                                   : heard->front();
-    if (meant == nullptr) answer.heard = nearest.sentence();
-    return tell_answer(answer, nearest.score, utterance, file, talk.world(), 1000.0 * watch.seconds());
+    if (meant != nullptr)
+      answer = talk.dialogue().hear(meant->sentence(), times_of(*meant, place));
+    else
+      answer.heard = nearest.sentence();
+    return tell_answer(answer, nearest.score, place, talk.world(), 1000.0 * (before + watch.seconds()));
   }
 
-  speech::WordTimes times_of(const speech::Heard& heard, const speech::Utterance& utterance) const {
-    speech::WordTimes times{.now = time_ + utterance.speech_end};
-    for (const speech::HeardWord& word : heard.words)
-      times.words.push_back(time_ + utterance.begin + word.begin);
+  static speech::WordTimes times_of(const speech::Heard& heard, const Place& place) {
+    speech::WordTimes times{.now = place.end};
+    for (const speech::HeardWord& word : heard.words) times.words.push_back(place.begin + word.begin);
     return times;
   }
 
-  /// The recogniser knows what can be said now.
-  Result<void> follow_grammar() {
+  /// What can be said now, where that has changed; null: it has not.
+  const speech::Grammar* new_grammar() {
     const speech::Grammar& grammar = talk_.dialogue().vocabulary().grammar;
     std::string jsgf = grammar.jsgf(speech::Dialogue::kSentence, "icome");
-    if (jsgf == known_) return {};
-    const auto silent =
-        recogniser_.set_grammar(grammar, {speech::Dialogue::kSentence, speech::Dialogue::kUsualSentence});
-    if (!silent) return tl::unexpected(silent.error());
-    if (!silent->empty() && *silent != silent_)
-      tell(fmt::format("nobody can be heard to say: {}", fmt::join(*silent, ", ")));
-    silent_ = *silent;
-    known_ = std::move(jsgf);
-    return {};
+    return std::exchange(known_, std::move(jsgf)) == known_ ? nullptr : &grammar;
   }
 
-  Result<void> tell_answer(const speech::Answer& answer, double score, const speech::Utterance& utterance,
-                           const std::filesystem::path& file, const world::World& world, double ms) const {
+  void tell_silent(const std::vector<std::string>& silent) {
+    if (silent == silent_) return;
+    silent_ = silent;
+    if (!silent.empty()) tell(fmt::format("nobody can be heard to say: {}", fmt::join(silent, ", ")));
+  }
+
+  Result<void> tell_answer(const speech::Answer& answer, double score, const Place& place,
+                           const world::World& world, double ms) const {
     std::string text;
+    const double begin = place.begin - place.file_begin, end = place.end - place.file_begin;
     if (options_.talk.json) {
-      Value::Fields fields{
-          {"file", file.string()}, {"begin_s", utterance.begin}, {"end_s", utterance.speech_end}};
+      Value::Fields fields{{"file", place.file}, {"begin_s", begin}, {"end_s", end}};
       for (auto& [name, value] : answer_value(answer, world)) {
         fields.emplace_back(name == "reply" ? "said" : name, std::move(value));
         if (name == "heard") fields.emplace_back("score", score);
@@ -94,7 +145,7 @@ class Listener {
       fields.emplace_back("ms", ms);
       text = interaction::json_from_value(fields) + "\n";
     } else {
-      text = fmt::format("{}, {:.2f} s: {}", file.string(), utterance.begin, answer_text(answer, world));
+      text = fmt::format("{}, {:.2f} s: {}", place.file, begin, answer_text(answer, world));
     }
     if (print_answer(text) != 0) return base::fail("the answers cannot be written");
     return {};
@@ -102,7 +153,6 @@ class Listener {
 
   const ListenOptions& options_;
   Talk& talk_;
-  speech::Recogniser& recogniser_;
   speech::HearingLimits limits_;
   std::string known_;  // the grammar that the recogniser has
   std::vector<std::string> silent_;
@@ -129,12 +179,14 @@ Result<void> listen(const ListenOptions& options, StatusLine& status) {
   const auto save = [&] { return (*talk)->save(out, options.force); };
   if (!out.empty()) (*talk)->stage().saving = save;
   status.say("Loading the recogniser");
-  const auto recogniser = speech::make_sphinx_recogniser();
+  auto recogniser = speech::make_sphinx_recogniser();
   if (!recogniser) return tl::unexpected(recogniser.error());
   status.clear();
-  Listener listener(options, **talk, **recogniser);
+  Listener listener(options, **talk);
+  if (options.recordings.empty())
+    if (const auto heard = listener.hear_microphone(std::move(*recogniser)); !heard) return heard;
   for (const std::filesystem::path& file : options.recordings)
-    if (const auto heard = listener.hear_recording(file); !heard) return heard;
+    if (const auto heard = listener.hear_recording(file, **recogniser); !heard) return heard;
   return out.empty() ? Result<void>() : save();
 }
 

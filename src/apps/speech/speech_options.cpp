@@ -44,21 +44,17 @@ constexpr const char* kListenNotes =
     "  icome listen order.wav --json               what is heard in a recording, and what it means\n"
     "  icome listen a.wav b.wav --apply --out balls.wrl\n"
     "                                              do it, one after the other, and save the design\n"
+    "  icome listen --design house.wrl --apply     the microphone, until Ctrl-C\n"
     "  icome listen move.wav --design house.wrl --pointer hand.csv --apply --out house.wrl\n"
     "\n"
     "Recordings are WAV, FLAC or OGG at any rate, or .raw (16 kHz, 16 bits, one channel). They are cut "
     "where\n"
     "nobody speaks. Without --apply each utterance is understood for the design as it is, and nothing is "
     "done.\n"
-    "What is heard is always the nearest sentence of the grammar (icome voice --list), also of speech that "
-    "is\n"
-    "none; what was heard with a score below --least-score is not accepted. docs/speech.md tells how often "
-    "it\n"
-    "is right, which is not yet often enough to work by. The hand's path has a first line t,x,y,z (s, m in "
-    "the world) or\n"
-    "t,x,y,z,dx,dy,dz (where it points); t runs on from one recording to the next, and \"this\" and "
-    "\"here\"\n"
-    "mean the hand at the moment of the word.\n"
+    "What is no sentence of the grammar (icome voice --list) is refused, as is what fits worse than\n"
+    "--least-score; docs/speech.md tells how often it is right. The hand's path has a first line t,x,y,z\n"
+    "(s, m in the world) or t,x,y,z,dx,dy,dz (where it points); t runs on from one recording to the next,\n"
+    "and \"this\" and \"here\" mean the hand at the moment of the word.\n"
     "\n"
     "JSON, one object a line for each utterance: {file, begin_s, end_s, heard, score (0 at best), accepted,\n"
     "state, intent: null or {op, ...}, said: the reply, objects, candidates, operations, ms: from the whole\n"
@@ -92,9 +88,12 @@ void add_speech(CLI::App& app, SpeechOptions& options) {
   say.add_flag("--json", options.say.talk.json, "Print a JSON object for each sentence (fields below)");
   say.callback([&options] { options.task = "say"; });
 
-  CLI::App& listen = *app.add_subcommand("listen", "Understand recordings of voice commands (thesis 7.4)");
+  CLI::App& listen =
+      *app.add_subcommand("listen", "Understand voice commands by microphone or recording (thesis 7.4)");
   listen.footer(kListenNotes);
-  listen.add_option("WAV", options.listen.recordings, "Recordings of speech")->type_name("")->required();
+  auto* const recordings =
+      listen.add_option("WAV", options.listen.recordings, "Recordings of speech (default: the microphone)")
+          ->type_name("");
   add_talk_options(listen, options.listen.talk);
   listen.add_option("--pointer", options.listen.pointer, "Where the hand is, by the time")
       ->type_name("P.csv");
@@ -103,6 +102,9 @@ void add_speech(CLI::App& app, SpeechOptions& options) {
       .add_option("--out", options.listen.out, "Save the design when all is heard (default: over --design)")
       ->type_name("OUT")
       ->needs(apply);
+  listen.add_option("--microphone", options.listen.microphone, "Another microphone than the usual one")
+      ->type_name("NAME")
+      ->excludes(recordings);
   listen.add_flag("--force", options.listen.force, "Replace a file even if some of it would be lost");
   listen.add_option("--hang", options.listen.hang, "Silence that ends an utterance (default 0.4)")
       ->type_name("S")

@@ -38,10 +38,11 @@ struct VoiceOptions {
 /// The options of `icome listen`.
 struct ListenOptions {
   TalkOptions talk;
-  std::vector<std::filesystem::path> recordings;
-  std::filesystem::path pointer;  // path of the hand; empty: there is none
-  bool apply = false;             // do what was understood
-  std::filesystem::path out;      // empty: over the design, where it is a file
+  std::vector<std::filesystem::path> recordings;  // none: the microphone
+  std::string microphone;                         // empty: the usual one
+  std::filesystem::path pointer;                  // path of the hand; empty: there is none
+  bool apply = false;                             // do what was understood
+  std::filesystem::path out;                      // empty: over the design, where it is a file
   bool force = false;
   double hang = 0.4;                  // s of silence that end an utterance
   std::optional<double> least_score;  // none: the usual one

@@ -43,10 +43,10 @@ double loudness(Sound sound) {
 
 /// The loudness that a tenth of the frames of 10 ms are below.
 double quietest(Sound sound) {
-  constexpr std::size_t kFrame = kSampleRate / 100;
+  constexpr std::size_t kTenMs = kSampleRate / 100;
   std::vector<double> frames;
-  for (std::size_t at = 0; at + kFrame <= sound.size(); at += kFrame)
-    frames.push_back(loudness(sound.subspan(at, kFrame)));
+  for (std::size_t at = 0; at + kTenMs <= sound.size(); at += kTenMs)
+    frames.push_back(loudness(sound.subspan(at, kTenMs)));
   if (frames.empty()) return 0.0;
   const auto tenth = frames.begin() + std::ptrdiff_t(frames.size() / 10);
   std::ranges::nth_element(frames, tenth);

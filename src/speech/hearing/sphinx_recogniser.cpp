@@ -149,8 +149,9 @@ class SphinxRecogniser final : public Recogniser {
 
   bool take(const LanguageModel& words) {
     const TemporaryFile file(words.arpa());
-    ngram_model_t* const model = ngram_model_read(config_.get(), file.path().c_str(), NGRAM_ARPA,
-                                                  logmath_retain(ps_get_logmath(decoder_.get())));
+    // It keeps the logarithms by itself, whatever its header says.
+    ngram_model_t* const model =
+        ngram_model_read(config_.get(), file.path().c_str(), NGRAM_ARPA, ps_get_logmath(decoder_.get()));
     if (model == nullptr) return false;
     const bool taken =
         ps_set_lm(decoder_.get(), kSearch, model) == 0 && ps_set_search(decoder_.get(), kSearch) == 0;

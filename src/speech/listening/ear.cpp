@@ -17,9 +17,10 @@ double now() {
 
 }  // namespace
 
-Ear::Ear(OpenSource open, MakeRecogniser make)
+Ear::Ear(OpenSource open, MakeRecogniser make, const VoiceSettings& voice)
     : open_(std::move(open)),
       make_(std::move(make)),
+      voice_(voice),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 Ear::~Ear() {
@@ -80,7 +81,7 @@ void Ear::run(const std::stop_token& stop) {
 }
 
 void Ear::listen(SoundSource& source, Recogniser& recogniser, const std::stop_token& stop) {
-  VoiceActivity activity;
+  VoiceActivity activity(voice_);
   std::size_t samples = 0;
   double clock =
       std::numeric_limits<double>::infinity();  // s, of the first sample: samples come late, not early

@@ -37,7 +37,7 @@ class Ear {
  public:
   using MakeRecogniser = std::function<base::Result<std::unique_ptr<Recogniser>>()>;
 
-  Ear(OpenSource open, MakeRecogniser make);
+  Ear(OpenSource open, MakeRecogniser make, const VoiceSettings& voice = {});
   ~Ear();
   Ear(const Ear&) = delete;
   Ear& operator=(const Ear&) = delete;
@@ -64,6 +64,7 @@ class Ear {
 
   OpenSource open_;
   MakeRecogniser make_;
+  VoiceSettings voice_;
   mutable std::mutex mutex_;
   std::condition_variable_any waits_;
   std::optional<Expected> expected_;  // what the recogniser does not know yet

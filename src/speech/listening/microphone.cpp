@@ -77,9 +77,9 @@ class Microphone final : public SoundSource {
     if (device == paNoDevice) return fail("there is no microphone");
     const PaStreamParameters wanted{device, 1, paInt16, Pa_GetDeviceInfo(device)->defaultLowInputLatency,
                                     nullptr};
-    constexpr unsigned long kFrame = kSampleRate / 100;
+    constexpr unsigned long kTenMs = kSampleRate / 100;
     PaError error =
-        Pa_OpenStream(&stream_, &wanted, nullptr, kSampleRate, kFrame, paNoFlag, &Microphone::take, this);
+        Pa_OpenStream(&stream_, &wanted, nullptr, kSampleRate, kTenMs, paNoFlag, &Microphone::take, this);
     if (error == paNoError) error = Pa_StartStream(stream_);
     if (error == paNoError) return {};
     return fail(fmt::format("the microphone '{}' cannot be heard: {}", Pa_GetDeviceInfo(device)->name,

@@ -9,7 +9,7 @@ namespace icome::ui {
 namespace {
 
 constexpr int kOutcomeStays = 2500;  // ms
-constexpr int kSide = 32;            // pixels
+constexpr int kAgentSide = 32;       // pixels
 
 QColor colour_of(VoiceAgent::Mood mood) {
   using Mood = VoiceAgent::Mood;
@@ -31,7 +31,7 @@ bool is_outcome(VoiceAgent::Mood mood) { return mood >= VoiceAgent::Mood::Unders
 
 VoiceAgent::VoiceAgent(QWidget* parent) : QWidget(parent) {
   setObjectName("voice.agent");
-  setFixedSize(kSide, kSide);
+  setFixedSize(kAgentSide, kAgentSide);
 }
 
 void VoiceAgent::show(Mood mood) {
@@ -59,7 +59,7 @@ void VoiceAgent::paintEvent(QPaintEvent*) {
   painter.setRenderHint(QPainter::Antialiasing);
   const Mood mood = this->mood();
   const QColor colour = colour_of(mood);
-  const QPointF centre(kSide / 2.0, kSide / 2.0);
+  const QPointF centre(kAgentSide / 2.0, kAgentSide / 2.0);
   // A ring as wide as what is heard is loud.
   if (mood == Mood::Listening || mood == Mood::Hearing) {
     QColor ring = colour;
