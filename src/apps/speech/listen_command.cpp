@@ -24,12 +24,12 @@ using base::Result;
 using interaction::Value;
 
 /// Where an utterance was heard, s from the beginning of all that is heard.
-struct Place {
-  std::string file;  // or kMicrophone
+struct HeardAt {
+  std::string file;  // or kMicrophoneName
   double begin = 0.0, end = 0.0;
   double file_begin = 0.0;  // of the file, whose times are told
 };
-constexpr const char* kMicrophone = "microphone";
+constexpr const char* kMicrophoneName = "microphone";
 
 /// Understands utterances, one after the other.
 class Listener {
@@ -53,7 +53,7 @@ class Listener {
       }
       const auto heard = recogniser.recognise(utterance.samples);
       if (!heard) return tl::unexpected(heard.error());
-      const Place place{file.string(), time_ + utterance.begin, time_ + utterance.speech_end, time_};
+      const HeardAt place{file.string(), time_ + utterance.begin, time_ + utterance.speech_end, time_};
       if (const auto told = understand(*heard, place, watch); !told) return told;
     }
     if (utterances.empty() && !options_.talk.json) print(fmt::format("{}: nobody speaks\n", file.string()));
@@ -78,7 +78,7 @@ class Listener {
                    std::string(speech::Dialogue::kUsualSentence));
       for (const speech::HeardUtterance& it : ear.take()) {
         const Stopwatch watch;
-        const Place place{kMicrophone, it.begin - begin, it.end - begin, 0.0};
+        const HeardAt place{kMicrophoneName, it.begin - begin, it.end - begin, 0.0};
         if (const auto told = understand(it.sentences, place, watch, it.seconds); !told) return told;
       }
       const speech::EarState state = ear.state();
@@ -97,8 +97,8 @@ class Listener {
   }
 
   /// `before`: s that recognising took before the watch began.
-  Result<void> understand(const std::vector<speech::Heard>& heard, const Place& place, const Stopwatch& watch,
-                          double before = 0.0) {
+  Result<void> understand(const std::vector<speech::Heard>& heard, const HeardAt& place,
+                          const Stopwatch& watch, double before = 0.0) {
     // Without --apply each is understood by itself.
     std::unique_ptr<Talk> own = options_.apply ? nullptr : talk_.beginning();
     Talk& talk = own ? *own : talk_;
@@ -113,7 +113,7 @@ class Listener {
     return tell_answer(answer, nearest.score, place, talk.world(), 1000.0 * (before + watch.seconds()));
   }
 
-  static speech::WordTimes times_of(const speech::Heard& heard, const Place& place) {
+  static speech::WordTimes times_of(const speech::Heard& heard, const HeardAt& place) {
     speech::WordTimes times{.now = place.end};
     for (const speech::HeardWord& word : heard.words) times.words.push_back(place.begin + word.begin);
     return times;
@@ -132,7 +132,7 @@ class Listener {
     if (!silent.empty()) tell(fmt::format("nobody can be heard to say: {}", fmt::join(silent, ", ")));
   }
 
-  Result<void> tell_answer(const speech::Answer& answer, double score, const Place& place,
+  Result<void> tell_answer(const speech::Answer& answer, double score, const HeardAt& place,
                            const world::World& world, double ms) const {
     std::string text;
     const double begin = place.begin - place.file_begin, end = place.end - place.file_begin;
