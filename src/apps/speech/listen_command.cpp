@@ -110,7 +110,8 @@ class Listener {
       answer = talk.dialogue().hear(meant->sentence(), times_of(*meant, place));
     else
       answer.heard = nearest.sentence();
-    return tell_answer(answer, nearest.score, place, talk.world(), 1000.0 * (before + watch.seconds()));
+    const Value score = nearest.words.empty() ? Value() : Value(nearest.score);
+    return tell_answer(answer, score, place, talk.world(), 1000.0 * (before + watch.seconds()));
   }
 
   static speech::WordTimes times_of(const speech::Heard& heard, const HeardAt& place) {
@@ -132,7 +133,7 @@ class Listener {
     if (!silent.empty()) tell(fmt::format("nobody can be heard to say: {}", fmt::join(silent, ", ")));
   }
 
-  Result<void> tell_answer(const speech::Answer& answer, double score, const HeardAt& place,
+  Result<void> tell_answer(const speech::Answer& answer, const Value& score, const HeardAt& place,
                            const world::World& world, double ms) const {
     std::string text;
     const double begin = place.begin - place.file_begin, end = place.end - place.file_begin;

@@ -77,17 +77,22 @@ int check(const VoiceOptions& options) {
   TalkOptions talk = options.talk;
   talk.vocabularies.push_back(options.check);
   const auto vocabulary = vocabulary_of(talk);
+  std::vector<std::string> problems;
+  if (!vocabulary)
+    problems.push_back(vocabulary.error().message);
+  else
+    for (const std::string& it : speech::often_but_never(*vocabulary))
+      problems.push_back(fmt::format("{}: {}.", options.check.string(), it));
   if (options.talk.json) {
-    Json json{{"file", options.check.string()}, {"valid", bool(vocabulary)}, {"problems", Json::array()}};
-    if (!vocabulary) json["problems"].push_back(vocabulary.error().message);
-    json["commands"] = vocabulary ? vocabulary->commands.size() : 0;
+    const Json json{{"file", options.check.string()},
+                    {"valid", problems.empty()},
+                    {"problems", problems},
+                    {"commands", vocabulary ? vocabulary->commands.size() : 0}};
     const int written = print_answer(text_of(json));
-    return vocabulary ? written : kFailed;
+    return problems.empty() ? written : kFailed;
   }
-  if (!vocabulary) {
-    tell(vocabulary.error().message);
-    return kFailed;
-  }
+  for (const std::string& problem : problems) tell(problem);
+  if (!problems.empty()) return kFailed;
   return print_answer(fmt::format("{}: good; {} commands with the built-in ones\n", options.check.string(),
                                   vocabulary->commands.size()));
 }

@@ -18,6 +18,8 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+constexpr const char* kBusy = "something else in the window must be finished first";
+
 /// The world of a session, each sentence an action of its history.
 class SpokenTarget final : public interaction::OperationTarget {
  public:
@@ -26,11 +28,11 @@ class SpokenTarget final : public interaction::OperationTarget {
   const world::World& world() const override { return session_.world(); }
   world::IdSource& ids() override { return session_.ids(); }
   Result<void> act(const world::Edit& edit, const std::string& title) override {
-    if (!hooks_.begin()) return base::fail("what is being typed must be put right first");
+    if (!hooks_.begin()) return base::fail(kBusy);
     return session_.history().perform(edit, title);
   }
-  Result<void> undo() override { return session_.history().undo(); }
-  Result<void> redo() override { return session_.history().redo(); }
+  Result<void> undo() override { return hooks_.begin() ? session_.history().undo() : base::fail(kBusy); }
+  Result<void> redo() override { return hooks_.begin() ? session_.history().redo() : base::fail(kBusy); }
   bool can_undo() const override { return session_.history().can_undo(); }
   bool can_redo() const override { return session_.history().can_redo(); }
 

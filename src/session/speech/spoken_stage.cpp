@@ -73,7 +73,8 @@ speech::StageAbilities SpokenStage::abilities() const {
   return {.saves = bool(hooks_.save),
           .closes = bool(hooks_.close_design),
           .goes = true,
-          .has_menu = bool(hooks_.menu)};
+          .has_menu = bool(hooks_.menu),
+          .asks_to_close = true};
 }
 
 Result<void> SpokenStage::save() {

@@ -223,7 +223,10 @@ Result<Understood> act_delete(Reading& reading) {
   meaning.intent = {{"op", "delete"}, {"objects", names_value(reading.world(), *said)}};
   meaning.objects = *said;
   meaning.reply = as_sentence("Deleted " + called_all(reading.world(), *said));
-  if (clears || is_everything(reading.world(), *said))
+  const Phrase* const several = reading.phrase.find("several");
+  const bool says_so =
+      several != nullptr && several->has("everything") && reading.phrase.find("relation") == nullptr;
+  if (clears || says_so || is_everything(reading.world(), *said))
     meaning.question = fmt::format("Delete everything ({} thing{})? Say yes or no.", said->size(),
                                    said->size() == 1 ? "" : "s");
   const auto done = reading.draft.perform({{"op", "delete"}, {"objects", objects_value(*said)}});

@@ -226,8 +226,10 @@ Result<Understood> act_close(Reading& reading) {
       return stage.close_menu() ? Result<void>() : fail("No menu is open.");
     });
   if (!stage.abilities().closes) return fail("There is no window here to close the design in.");
-  Understood meaning = deed_of("close", "Closed.", [&stage] { return stage.close_design(); });
-  meaning.question = "Close the design? Say yes or no.";
+  const bool asks = stage.abilities().asks_to_close;
+  Understood meaning =
+      deed_of("close", asks ? "Closing." : "Closed.", [&stage] { return stage.close_design(); });
+  if (!asks) meaning.question = "Close the design? Say yes or no.";
   return meaning;
 }
 

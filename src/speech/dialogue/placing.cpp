@@ -35,17 +35,59 @@ Vector3 beside_along(const Vector3& axis, const Bounds& bounds, const Bounds& re
   return middle;
 }
 
+/// The place, or the first one behind it in steps that is free; the place itself where all of some are taken.
+Vector3 first_free(const Vector3& place, const Vector3& step, const Bounds& bounds,
+                   const std::vector<Bounds>& others) {
+  constexpr int kMostSteps = 50;
+  for (int i = 0; i < kMostSteps; ++i)
+    if (const Vector3 middle = place + i * step; is_free(centred_at(bounds, middle), others)) return middle;
+  return place;
+}
+
+/// The free place on top of the reference that is nearest to its middle; where none is left, on top of what
+/// lies in its middle.
+Vector3 on_top(const Bounds& bounds, const Bounds& reference, const std::vector<Bounds>& others) {
+  const Vector3 size = bounds.sizes(), room = 0.5 * (reference.sizes() - size);
+  Vector3 middle = reference.center();
+  middle.y() = reference.max().y() + 0.5 * size.y();
+  constexpr int kMostPlaces = 20;  // to each side
+  const auto places = [&](int axis) {
+    const double step = (1.0 + kGap) * size[axis];
+    return step > 0.0 && room[axis] > 0.0 ? std::min(kMostPlaces, int(room[axis] / step)) : 0;
+  };
+  std::vector<Vector3> all;
+  for (int x = -places(0); x <= places(0); ++x)
+    for (int z = -places(2); z <= places(2); ++z)
+      all.emplace_back(middle + (1.0 + kGap) * Vector3(x * size.x(), 0.0, z * size.z()));
+  // Of those as near as others the right one comes first, as in "near".
+  std::ranges::stable_sort(all, [&](const Vector3& one, const Vector3& other) {
+    const double near = (one - middle).norm(), far = (other - middle).norm();
+    return std::abs(near - far) > 1e-9 ? near < far : one.x() > other.x();
+  });
+  for (const Vector3& place : all)
+    if (is_free(centred_at(bounds, place), others)) return place;
+  for (std::size_t i = 0; i < others.size(); ++i)
+    for (const Bounds& other : others)
+      if (!is_free(centred_at(bounds, middle), {other})) middle.y() = other.max().y() + 0.5 * size.y();
+  return middle;
+}
+
 }  // namespace
 
 Vector3 middle_beside(const std::string& side, const Bounds& bounds, const Bounds& reference,
                       const ViewerAxes& axes, const std::vector<Bounds>& others) {
   const double half = 0.5 * bounds.sizes().y(), gap = kGap * bounds.sizes().maxCoeff();
+  const auto beside = [&](const Vector3& axis) {
+    const Vector3 step = (2.0 * half_along(bounds, axis) + gap) * axis;
+    return first_free(beside_along(axis, bounds, reference), step, bounds, others);
+  };
   Vector3 middle = reference.center();
-  if (side == "left") return beside_along(-axes.right, bounds, reference);
-  if (side == "right") return beside_along(axes.right, bounds, reference);
-  if (side == "front") return beside_along(axes.towards, bounds, reference);
-  if (side == "behind") return beside_along(-axes.towards, bounds, reference);
-  if (side == "inside") return middle;
+  const Vector3 up = (2.0 * half + gap) * Vector3::UnitY();
+  if (side == "left") return beside(Vector3(-axes.right));
+  if (side == "right") return beside(axes.right);
+  if (side == "front") return beside(axes.towards);
+  if (side == "behind") return beside(Vector3(-axes.towards));
+  if (side == "on") return on_top(bounds, reference, others);
   if (side == "near") {
     for (const Vector3& axis : {axes.right, Vector3(-axes.right), axes.towards, Vector3(-axes.towards)}) {
       middle = beside_along(axis, bounds, reference);
@@ -53,10 +95,15 @@ Vector3 middle_beside(const std::string& side, const Bounds& bounds, const Bound
     }
     return middle;
   }
-  if (side == "on") middle.y() = reference.max().y() + half;
-  if (side == "above") middle.y() = reference.max().y() + gap + half;
-  if (side == "below") middle.y() = reference.min().y() - gap - half;
-  return middle;
+  if (side == "above") {
+    middle.y() = reference.max().y() + gap + half;
+    return first_free(middle, up, bounds, others);
+  }
+  if (side == "below") {
+    middle.y() = reference.min().y() - gap - half;
+    return first_free(middle, -up, bounds, others);
+  }
+  return middle;  // inside
 }
 
 Vector3 free_middle(const Bounds& bounds, const std::vector<Bounds>& others) {

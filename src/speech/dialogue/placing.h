@@ -6,8 +6,9 @@
 namespace icome::speech {
 
 /// The box in the middle of which something of these bounds stands beside the reference, in the viewer's
-/// frame: on the floor that it stands on, a quarter of its own size away. `side` as of the rule side; for
-/// "near" the first side that is free of `others`.
+/// frame: on the floor that it stands on, a quarter of its own size away. `side` as of the rule side. Where
+/// `others` are in the way it stands farther away on that side; "near", on the first side that is free; "on",
+/// at the free place on top that is nearest to the middle, or else on what lies there.
 Vector3 middle_beside(const std::string& side, const Bounds& bounds, const Bounds& reference,
                       const ViewerAxes& axes, const std::vector<Bounds>& others);
 

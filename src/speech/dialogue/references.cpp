@@ -420,8 +420,12 @@ References::Found References::named(const Phrase& phrase, const Phrase* relation
 
 References::Found References::described(const Phrase& phrase, const Phrase* relation) {
   if (const auto chosen = at_.choices.find(phrase.begin); chosen != at_.choices.end()) return chosen->second;
-  if (phrase.has("everything")) return speakable_objects(at_.world, true);
-  if (phrase.has("them")) return it();
+  if (phrase.has("everything") || phrase.has("them")) {
+    Found all = phrase.has("them") ? it() : Found(speakable_objects(at_.world, true));
+    if (!all || !relation) return all;
+    if (const auto kept = keep_related(*all, *relation); !kept) return tl::unexpected(kept.error());
+    return all->empty() ? fail("There is nothing like that.") : all;
+  }
   if (phrase.part("name")) return named(phrase, relation);
   std::vector<ObjectId> fitting = universe(phrase);
   if (phrase.has("other")) {

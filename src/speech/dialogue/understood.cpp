@@ -144,7 +144,9 @@ Result<const Phrase*> Reading::needed(std::string_view rule) const {
 
 std::string Reading::why_no_name(const std::string& words) const {
   const std::vector<std::string> each = spoken_words(words);
-  if (each.front() == "the") return "A name does not begin with 'the'.";
+  constexpr std::array kNotFirst = {"the", "it", "them", "this", "that", "these", "those"};
+  if (each.size() > 1 && std::ranges::find(kNotFirst, each.front()) != kNotFirst.end())
+    return fmt::format("A name does not begin with '{}'.", each.front());
   const bool all_fixed =
       std::ranges::all_of(each, [this](const std::string& word) { return fixed_words.contains(word); });
   return all_fixed ? fmt::format("'{}' means something else already; choose another word.", words) : "";

@@ -28,8 +28,7 @@ struct CloseSound {
 
 std::int16_t sample_of(float value) {
   constexpr float kFull = 32767.0F;
-  return std::isfinite(value) ? std::int16_t(std::lround(std::clamp(value, -1.0F, 1.0F) * kFull))
-                              : std::int16_t(0);
+  return std::int16_t(std::lround(std::clamp(value, -1.0F, 1.0F) * kFull));
 }
 
 std::string too_long(const std::filesystem::path& file) {
@@ -46,6 +45,9 @@ Result<std::vector<float>> mono(SNDFILE* sound, const SF_INFO& info, const std::
     for (sf_count_t i = 0; i < frames; ++i) {
       float sum = 0.0F;
       for (int c = 0; c < info.channels; ++c) sum += block[std::size_t(i * info.channels + c)];
+      if (!std::isfinite(sum))
+        return fail(
+            fmt::format("{}: is damaged: its sample {} is no number", file.string(), samples.size() + 1));
       samples.push_back(sum / float(info.channels));
     }
     if (double(samples.size()) > kLongest * info.samplerate) return fail(too_long(file));

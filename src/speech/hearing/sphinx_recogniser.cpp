@@ -177,13 +177,14 @@ class SphinxRecogniser final : public Recogniser {
       sum += double(acoustic) / kScoreUnit;
       frames += double(last - first + 1);
     }
-    return {frames > 0.0 ? natural(sum / frames) : 0.0, std::max(frames, 1.0)};
+    return {frames > 0.0 ? natural(sum / frames) : 0.0, frames};
   }
 
   /// Those of the likeliest ways through the words that are sentences of the grammar.
   std::vector<Heard> likeliest() {
     std::vector<Heard> all;
     const auto [fit, frames] = fit_of_best();
+    if (!(frames > 0.0)) return all;  // nobody spoke
     std::unique_ptr<ps_nbest_t, FreePaths> paths(ps_nbest(decoder_.get()));
     std::set<std::string> tried;
     std::optional<double> best;

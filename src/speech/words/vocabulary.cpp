@@ -15,6 +15,7 @@
 #include "interaction/operations/toml_value.h"
 #include "io/key_reader.h"
 #include "speech/dialogue/acts.h"
+#include "speech/grammar/sentence_sampler.h"
 #include "speech/words/english.h"
 #include "speech/words/spoken_words.h"
 
@@ -128,6 +129,8 @@ class VocabularyReader {
 
   void read_words(const TomlMember& table) {
     if (!is(table.value, Kind::Table, "'words." + table.key + "'", "a table of words and meanings")) return;
+    if (!to_.tables.contains(table.key) && to_.grammar.find(table.key) != nullptr)
+      return problems_.add(table.place, fmt::format("'words.{0}': <{0}> is a rule, no table.", table.key));
     auto& words = to_.tables[table.key];
     for (const TomlMember& member : table.value.members) {
       const std::size_t bar = member.key.find('|');
@@ -252,6 +255,8 @@ class VocabularyReader {
   }
 
   void check_command(const Command& command, Place place) {
+    if (to_.grammar.check(command.rule) && !to_.grammar.parse(command.rule, {}).empty())
+      problems_.add(place, fmt::format("'{}': a form of it has no word that must be said.", command.name));
     if (!command.does.empty()) {
       if (!is_act(command.does))
         problems_.add(place, fmt::format("'{}': the dialogue has no act '{}'{}", command.name, command.does,
@@ -263,6 +268,9 @@ class VocabularyReader {
       problems_.add(place, fmt::format("'{}': {}", command.name, operation.error().message));
       return;
     }
+    if (!(*operation)->plan)
+      return problems_.add(place, fmt::format("'{}': {} is no operation that a command of one's own can do.",
+                                              command.name, command.operation));
     check_parameters(command, **operation, place);
   }
 
@@ -324,6 +332,23 @@ Pattern pattern_of(const std::vector<WordMeaning>& words, bool plural) {
     choice.parts.push_back(sequence_of(std::move(parts)));
   }
   return choice;
+}
+
+std::vector<std::string> often_but_never(const Vocabulary& vocabulary) {
+  constexpr int kTried = 50;
+  base::Random random(1);
+  std::vector<std::string> sentences;
+  for (const Command& command : vocabulary.commands) {
+    const Pattern* const often = vocabulary.grammar.find(command.usual);
+    for (int i = 0; often != nullptr && i < kTried; ++i) {
+      const auto words = sample_sentence(vocabulary.grammar, *often, random);
+      if (!words || !vocabulary.grammar.parse(command.rule, *words).empty()) continue;
+      sentences.push_back(
+          fmt::format("'{}': no form of 'say' fits '{}' of 'often'", command.name, joined_words(*words)));
+      break;
+    }
+  }
+  return sentences;
 }
 
 Result<Vocabulary> built_in_vocabulary(std::string_view language) {

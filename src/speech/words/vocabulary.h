@@ -51,6 +51,10 @@ const std::vector<std::string>& live_rules();
 /// The rule of the words of a table: each says what it means by its tag. With `plural`, of the plurals only.
 Pattern pattern_of(const std::vector<WordMeaning>& words, bool plural);
 
+/// For each command that has sentences in `often` which no form of it matches, a sentence that says so.
+/// Names, menus and words of one's own, which come later, are not looked at.
+std::vector<std::string> often_but_never(const Vocabulary& vocabulary);
+
 /// The vocabulary of a language that is built in, "en". Fails with the languages that there are.
 base::Result<Vocabulary> built_in_vocabulary(std::string_view language = "en");
 

@@ -184,6 +184,7 @@ void MainWindow::show_people() {
 
 void MainWindow::show_voice(bool shown) {
   voice_->setVisible(shown);
+  is_stale_ = true;
   if (shown)
     go_to(voice_->field());
   else

@@ -75,7 +75,7 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
                     .tell = [this](const Note& note) { tell(note); },
                     .ask = [this](const interaction::Operation& it) { ask(it); }},
                    *this),
-      conversation_(session, {.begin = [this] { return finish_work(); },
+      conversation_(session, {.begin = [this] { return !QApplication::activeModalWidget() && finish_work(); },
                               .mouse = [this] { return tools_.mouse_way(); },
                               .save = [this] { files_.save(); },
                               .close_design = [this] { files_.leave(); },
@@ -383,7 +383,8 @@ void MainWindow::show_look() {
     if (auto panel = label_.panel(session_, *labelled_, pixel_ratio_))
       wish.look.overlay.panels.push_back(std::move(*panel));
   }
-  const std::vector<world::ObjectId>& asked = conversation_.candidates();
+  const std::vector<world::ObjectId> asked =
+      voice_->isVisible() ? conversation_.candidates() : std::vector<world::ObjectId>();
   numbers_.resize(asked.size());
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const auto& number = numbers_[i].picture(QString::number(i + 1), pixel_ratio_);

@@ -121,6 +121,33 @@ TEST_F(RecordingFile, ComesAtTheRateOfTheRecogniser) {
   EXPECT_LT(worst, 100.0);
 }
 
+TEST_F(RecordingFile, WithSamplesThatAreNoNumbersIsDamaged) {
+  // A WAV file of floats: format 3, 32 bits.
+  const auto file = folder_ / "floats.wav";
+  std::ofstream out(file, std::ios::binary);
+  const auto number = [&](std::uint32_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i) out.put(char(value >> (8 * i)));
+  };
+  out << "RIFF";
+  number(36 + 8, 4);
+  out << "WAVEfmt ";
+  number(16, 4);
+  number(3, 2);
+  number(1, 2);
+  number(16000, 4);
+  number(64000, 4);
+  number(4, 2);
+  number(32, 2);
+  out << "data";
+  number(8, 4);
+  number(0, 4);
+  number(0x7fc00000U, 4);  // not a number
+  out.close();
+  const auto sound = read_recording(file);
+  ASSERT_FALSE(sound);
+  EXPECT_NE(sound.error().message.find("sample 2"), std::string::npos) << sound.error().message;
+}
+
 TEST_F(RecordingFile, WhatIsNoneIsToldByItsName) {
   std::ofstream(folder_ / "text.wav") << "no sound at all";
   for (const char* name : {"text.wav", "missing.wav", ""}) {

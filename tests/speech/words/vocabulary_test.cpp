@@ -26,6 +26,7 @@ TEST(Vocabulary, TheBuiltInOneIsGood) {
 TEST(Vocabulary, WhatIsSaidOftenIsASentenceOfItsCommand) {
   const auto vocabulary = built_in_vocabulary();
   ASSERT_TRUE(vocabulary);
+  EXPECT_TRUE(often_but_never(*vocabulary).empty());
   base::Random random(3);
   std::size_t tried = 0;
   for (const Command& command : vocabulary->commands) {
@@ -47,6 +48,30 @@ std::string problem_of(const std::string& text) {
   Vocabulary vocabulary = *built_in_vocabulary();
   const auto added = add_vocabulary(vocabulary, text, "own.toml");
   return added ? "" : added.error().message;
+}
+
+TEST(Vocabulary, WhatIsSaidOftenButFitsNoFormIsFound) {
+  Vocabulary vocabulary = *built_in_vocabulary();
+  ASSERT_TRUE(add_vocabulary(vocabulary, R"(
+[[command]]
+name = "soften"
+say = ["soften <objects>"]
+often = ["ease it"]
+op = "feel"
+with = { objects = "<objects>", stiffness = 300 }
+)",
+                             "own.toml"));
+  const auto never = often_but_never(vocabulary);
+  ASSERT_EQ(never.size(), 1U);
+  EXPECT_NE(never.front().find("ease it"), std::string::npos);
+}
+
+TEST(Vocabulary, ATableIsNoRuleAndACommandSaysSomething) {
+  EXPECT_NE(problem_of("[words.number]\nmany = 100\n").find("is a rule"), std::string::npos);
+  const char* const silent = "[[command]]\nname = \"hush\"\nsay = [\"[maybe]\"]\ndoes = \"stop\"\n";
+  EXPECT_NE(problem_of(silent).find("no word"), std::string::npos);
+  const char* const back = "[[command]]\nname = \"back\"\nsay = [\"back up\"]\nop = \"undo\"\n";
+  EXPECT_NE(problem_of(back).find("undo"), std::string::npos);
 }
 
 TEST(Vocabulary, WordsAndCommandsAreAdded) {
