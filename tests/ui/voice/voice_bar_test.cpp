@@ -78,7 +78,7 @@ TEST_F(VoiceBarTest, MenusAreOpenedAndChosenFrom) {
   ASSERT_NE(session().menu().use(), nullptr) << text("voice.reply").toStdString();
   type("close the menu");
   EXPECT_EQ(session().menu().use(), nullptr);
-  type("open the new menu");
+  type("open the shape menu");
   ASSERT_NE(session().menu().use(), nullptr) << text("voice.reply").toStdString();
   type("choose ball");
   EXPECT_TRUE(until([&] { return named("sphere").size() == 1; })) << text("voice.reply").toStdString();
