@@ -23,7 +23,7 @@ namespace {
 using base::Result;
 using interaction::Value;
 
-/// Where an utterance was heard, s from the beginning of all that is heard.
+/// The place of an utterance in all that is heard, s from its beginning.
 struct HeardAt {
   std::string file;  // or kMicrophoneName
   double begin = 0.0, end = 0.0;
@@ -66,7 +66,7 @@ class Listener {
   Result<void> hear_microphone(std::unique_ptr<speech::Recogniser> recogniser) {
     if (const auto there = speech::open_microphone(options_.microphone); !there)
       return base::fail(there.error().message + "; give it recordings instead");
-    const double begin = steady_seconds();
+    const double begin = speech::clock_of_ears();
     speech::Ear ear([this] { return speech::open_microphone(options_.microphone); },
                     [&]() -> Result<std::unique_ptr<speech::Recogniser>> { return std::move(recogniser); },
                     {.hang = options_.hang});
@@ -83,48 +83,36 @@ class Listener {
       }
       const speech::EarState state = ear.state();
       tell_silent(state.silent);
-      if (std::exchange(problem, state.problem) != problem && !problem.empty()) tell(problem);
+      if (state.problem != problem && !state.problem.empty()) tell(state.problem);
+      problem = state.problem;
       const bool is_listening = state.doing >= speech::EarState::Doing::Listening && problem.empty();
-      if (std::exchange(listens, is_listening) != listens && listens) tell("listening; Ctrl-C ends it");
+      if (is_listening && !listens) tell("listening; Ctrl-C ends it");
+      listens = is_listening;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     return {};
   }
 
  private:
-  static double steady_seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  }
-
   /// `before`: s that recognising took before the watch began.
   Result<void> understand(const std::vector<speech::Heard>& heard, const HeardAt& place,
                           const Stopwatch& watch, double before = 0.0) {
     // Without --apply each is understood by itself.
     std::unique_ptr<Talk> own = options_.apply ? nullptr : talk_.beginning();
     Talk& talk = own ? *own : talk_;
-    talk.dialogue().vocabulary();
-    const speech::Heard* const meant = speech::likely_meant(heard, talk.dialogue(), limits_);
-    const speech::Heard nearest = meant != nullptr ? *meant : heard.empty() ? speech::Heard{} : heard.front();
-    speech::Answer answer{.reply = "That was no sentence that I know."};
-    if (meant != nullptr)
-      answer = talk.dialogue().hear(meant->sentence(), times_of(*meant, place));
-    else
-      answer.heard = nearest.sentence();
-    const Value score = nearest.words.empty() ? Value() : Value(nearest.score);
+    const auto [answer, nearest] =
+        speech::understand_utterance(talk.dialogue(), heard, place.begin, place.end, limits_);
+    const Value score = nearest ? Value(nearest->score) : Value();
     return tell_answer(answer, score, place, talk.world(), 1000.0 * (before + watch.seconds()));
   }
 
-  static speech::WordTimes times_of(const speech::Heard& heard, const HeardAt& place) {
-    speech::WordTimes times{.now = place.end};
-    for (const speech::HeardWord& word : heard.words) times.words.push_back(place.begin + word.begin);
-    return times;
-  }
-
-  /// What can be said now, where that has changed; null: it has not.
+  /// The grammar of this moment, where it has changed; null: it has not.
   const speech::Grammar* new_grammar() {
     const speech::Grammar& grammar = talk_.dialogue().vocabulary().grammar;
     std::string jsgf = grammar.jsgf(speech::Dialogue::kSentence, "icome");
-    return std::exchange(known_, std::move(jsgf)) == known_ ? nullptr : &grammar;
+    if (jsgf == known_) return nullptr;
+    known_ = std::move(jsgf);
+    return &grammar;
   }
 
   void tell_silent(const std::vector<std::string>& silent) {

@@ -56,7 +56,8 @@ constexpr const char* kListenNotes =
     "(s, m in the world) or t,x,y,z,dx,dy,dz (where it points); t runs on from one recording to the next,\n"
     "and \"this\" and \"here\" mean the hand at the moment of the word.\n"
     "\n"
-    "JSON, one object a line for each utterance: {file, begin_s, end_s, heard, score (0 at best), accepted,\n"
+    "JSON, one object a line for each utterance: {file, begin_s, end_s, heard, score (0 at best, or null), "
+    "accepted,\n"
     "state, intent: null or {op, ...}, said: the reply, objects, candidates, operations, ms: from the whole\n"
     "utterance to its meaning}.";
 

@@ -1,6 +1,5 @@
 #include "session/speech/conversation.h"
 
-#include <chrono>
 #include <utility>
 
 #include "interaction/operations/operation_runner.h"
@@ -13,10 +12,6 @@ namespace {
 
 using base::Result;
 using speech::Dialogue;
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 constexpr const char* kBusy = "something else in the window must be finished first";
 
@@ -76,7 +71,7 @@ struct Conversation::Parts {
 
   void answer(Spoken spoken) {
     candidates = spoken.answer.candidates;
-    // What was made or changed is selected, as after any operation.
+    // As any operation does, it leaves selected what it made or changed.
     if (!spoken.answer.operations.empty() && !spoken.answer.objects.empty())
       session.select(spoken.answer.objects);
     is_new = true;
@@ -84,24 +79,15 @@ struct Conversation::Parts {
   }
 
   void understand(const speech::HeardUtterance& utterance) {
-    talk().vocabulary();
-    const speech::Heard* const meant = speech::likely_meant(utterance.sentences, *dialogue);
-    Spoken spoken{.by_voice = true, .seconds = utterance.seconds};
-    if (meant == nullptr) {
-      spoken.answer.reply = "That was no sentence that I know.";
-      return answer(std::move(spoken));
-    }
-    speech::WordTimes times{.now = utterance.end};
-    for (const speech::HeardWord& word : meant->words) times.words.push_back(utterance.begin + word.begin);
-    spoken.score = meant->score;
-    spoken.answer = dialogue->hear(meant->sentence(), times);
-    answer(std::move(spoken));
+    auto [done, heard] =
+        speech::understand_utterance(talk(), utterance.sentences, utterance.begin, utterance.end);
+    answer({std::move(done), true, heard ? heard->score : 0.0, utterance.seconds});
   }
 
   /// Tells the ear what can be said now, where that may have changed; seldom, as it learns it anew each time.
   void follow() {
     constexpr double kSeldom = 0.5;  // s
-    const double time = now();
+    const double time = speech::clock_of_ears();
     if (!is_new || time < told_at + kSeldom) return;
     is_new = false;
     told_at = time;
@@ -135,15 +121,17 @@ Conversation::Conversation(Session& session, ConversationHooks hooks)
     const auto there = parts.lock();
     if (!there) return;
     there->is_new = true;
-    there->is_another = there->is_another || changes == nullptr;
+    if (changes != nullptr) return;
+    there->is_another = true;
+    there->candidates.clear();
   });
 }
 
 Conversation::~Conversation() = default;
 
 void Conversation::say(const std::string& sentence) {
-  parts_->stage.keep_hand(now());
-  parts_->answer({.answer = parts_->talk().hear(sentence, {.now = now()})});
+  parts_->stage.keep_hand(speech::clock_of_ears());
+  parts_->answer({.answer = parts_->talk().hear(sentence, {.now = speech::clock_of_ears()})});
 }
 
 void Conversation::listen(speech::OpenSource source) {
@@ -162,7 +150,7 @@ speech::EarState Conversation::ear() const { return parts_->ear ? parts_->ear->s
 
 void Conversation::tick() {
   if (!parts_->ear) return;
-  parts_->stage.keep_hand(now());
+  parts_->stage.keep_hand(speech::clock_of_ears());
   const bool has_menu = parts_->session.menu().use() != nullptr;
   if (std::exchange(parts_->had_menu, has_menu) != has_menu) parts_->is_new = true;
   parts_->follow();

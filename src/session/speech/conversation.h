@@ -20,7 +20,7 @@ struct Spoken {
   double seconds = 0.0;  // by voice: from the end of speech, as it was noticed, to its meaning
 };
 
-/// What a conversation needs of a window. All are called on main.
+/// The parts of a window that a conversation uses. All are called on main.
 struct ConversationHooks {
   /// Asked before the world is edited; false: do not.
   std::function<bool()> begin = [] { return true; };

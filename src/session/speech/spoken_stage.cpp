@@ -74,7 +74,7 @@ speech::StageAbilities SpokenStage::abilities() const {
           .closes = bool(hooks_.close_design),
           .goes = true,
           .has_menu = bool(hooks_.menu),
-          .asks_to_close = true};
+          .has_window = true};
 }
 
 Result<void> SpokenStage::save() {

@@ -6,7 +6,7 @@
 
 namespace icome::session {
 
-/// What sentences refer to and act on in a session: its view, hand, selection, files and menu.
+/// A session as sentences refer to it and act on it: its view, hand, selection, files and menu.
 class SpokenStage final : public speech::Stage {
  public:
   SpokenStage(Session& session, const ConversationHooks& hooks) : session_(session), hooks_(hooks) {}

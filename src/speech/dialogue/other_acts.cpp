@@ -170,7 +170,8 @@ Result<Understood> act_redo(Reading& reading) {
 Result<Understood> act_save(Reading& reading) {
   Stage& stage = reading.stage;
   if (!stage.abilities().saves) return fail("There is no file here to save to.");
-  return deed_of("save", "Saved.", [&stage] { return stage.save(); });
+  return deed_of("save", stage.abilities().has_window ? "Saving." : "Saved.",
+                 [&stage] { return stage.save(); });
 }
 
 Result<Understood> act_view(Reading& reading) {
@@ -226,7 +227,7 @@ Result<Understood> act_close(Reading& reading) {
       return stage.close_menu() ? Result<void>() : fail("No menu is open.");
     });
   if (!stage.abilities().closes) return fail("There is no window here to close the design in.");
-  const bool asks = stage.abilities().asks_to_close;
+  const bool asks = stage.abilities().has_window;
   Understood meaning =
       deed_of("close", asks ? "Closing." : "Closed.", [&stage] { return stage.close_design(); });
   if (!asks) meaning.question = "Close the design? Say yes or no.";

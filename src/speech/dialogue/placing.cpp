@@ -59,7 +59,7 @@ Vector3 on_top(const Bounds& bounds, const Bounds& reference, const std::vector<
   for (int x = -places(0); x <= places(0); ++x)
     for (int z = -places(2); z <= places(2); ++z)
       all.emplace_back(middle + (1.0 + kGap) * Vector3(x * size.x(), 0.0, z * size.z()));
-  // Of those as near as others the right one comes first, as in "near".
+  // The right one of two that are as near comes first, as for "near".
   std::ranges::stable_sort(all, [&](const Vector3& one, const Vector3& other) {
     const double near = (one - middle).norm(), far = (other - middle).norm();
     return std::abs(near - far) > 1e-9 ? near < far : one.x() > other.x();

@@ -27,7 +27,7 @@ struct MenuWords {
 /// What a stage can do; what it cannot is refused when it is said.
 struct StageAbilities {
   bool saves = false, closes = false, goes = false, has_menu = false;
-  bool asks_to_close = false;  // by itself, where work would be lost
+  bool has_window = false;  // which asks before work is lost, and tells when it is saved
 };
 
 /// All that sentences refer to and act on beside the design itself: the person's view and hand, what is

@@ -38,7 +38,7 @@ LanguageModel::LanguageModel(std::span<const Sentence> sentences, const std::set
     for (const std::string& word : sentence) take(word);
     take(std::string(kEnd));
   }
-  // Where less is known of the words before, a word counts once for each place that it was in: one that is
+  // As a follower of fewer words, a word counts once for each place that it was in: one that is
   // often said, but only by itself, is unlikely after all others.
   for (const auto& [two, followers] : after_two_)
     for (const auto& [word, count] : followers.counts) add(after_word_[two.second], word);

@@ -9,9 +9,9 @@
 
 namespace icome::speech {
 
-/// How likely each word is after the two before it, from example sentences: trigrams. Shorter ones, which are
-/// for words that were not seen after these two, are counted as Kneser and Ney do (1995), and get their share
-/// as Witten and Bell say (1991), so that no word is impossible anywhere. A plain value.
+/// The likelihood of each word after the two before it, from example sentences: trigrams. Shorter ones, which
+/// are for words that were not seen after these two, are counted as Kneser and Ney do (1995), and get their
+/// share as Witten and Bell say (1991), so that no word is impossible anywhere. A plain value.
 class LanguageModel {
  public:
   using Sentence = std::vector<std::string>;
@@ -19,8 +19,8 @@ class LanguageModel {
   /// Words beside those of the sentences are as likely as one that was seen once.
   explicit LanguageModel(std::span<const Sentence> sentences, const std::set<std::string>& words = {});
 
-  /// Of a word, or kEnd, after the words before it, kBegin at first; of these the last two count. 0 for a
-  /// word that it does not know.
+  /// The likelihood of a word, or kEnd, after the words before it, kBegin at first; of these the last two
+  /// count. 0 for a word that it does not know.
   double probability(std::span<const std::string> before, std::string_view word) const;
   static constexpr std::string_view kBegin = "<s>", kEnd = "</s>";
 
@@ -33,7 +33,7 @@ class LanguageModel {
     std::map<std::string, double, std::less<>> counts;
     double sum = 0.0;
 
-    /// What is left for words that were not seen: the more kinds of them follow, the more.
+    /// The share for words that were not seen: the more kinds of words follow, the more.
     double rest() const { return double(counts.size()) / (sum + double(counts.size())); }
     double share(std::string_view word) const;
   };

@@ -16,4 +16,21 @@ const Heard* likely_meant(const std::vector<Heard>& heard, Dialogue& dialogue, c
   return best;
 }
 
+UnderstoodUtterance understand_utterance(Dialogue& dialogue, const std::vector<Heard>& heard, double begin,
+                                         double end, const HearingLimits& limits) {
+  dialogue.vocabulary();  // brings up to date what can be said
+  UnderstoodUtterance understood;
+  if (const Heard* const meant = likely_meant(heard, dialogue, limits)) {
+    WordTimes times{.now = end};
+    for (const HeardWord& word : meant->words) times.words.push_back(begin + word.begin);
+    understood.answer = dialogue.hear(meant->sentence(), times);
+    understood.heard = *meant;
+    return understood;
+  }
+  if (!heard.empty()) understood.heard = heard.front();
+  understood.answer.reply = "That was no sentence that I know.";
+  if (understood.heard) understood.answer.heard = understood.heard->sentence();
+  return understood;
+}
+
 }  // namespace icome::speech

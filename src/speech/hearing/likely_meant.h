@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "speech/dialogue/dialogue.h"
@@ -6,7 +7,7 @@
 
 namespace icome::speech {
 
-/// What counts as a sentence of those that may have been said.
+/// Limits that tell sentences from other speech, and likely ones from others.
 struct HearingLimits {
   /// Sounds that fit worse are no sentence (Heard::score).
   double least_score = -6.6;
@@ -16,10 +17,22 @@ struct HearingLimits {
   double impossible = 40.0;
 };
 
-/// Of the sentences that may have been said, the one that is most likely meant, as it can be done now; null
+/// The sentence that is most likely meant, of those that may have been said, as it can be done now; null
 /// where all are too unlikely. It points into `heard`. By what could be said at the last call of another
 /// function of the dialogue.
 const Heard* likely_meant(const std::vector<Heard>& heard, Dialogue& dialogue,
                           const HearingLimits& limits = {});
+
+/// The sentence that was taken for what was said, and what came of it.
+struct UnderstoodUtterance {
+  Answer answer = {};
+  std::optional<Heard> heard =
+      {};  // also where it was refused as too unlikely; none: nothing like a sentence
+};
+
+/// Does what was most likely meant by an utterance. Its words have their times from `begin`; it ended at
+/// `end`, s, on the clock of the stage's hand.
+UnderstoodUtterance understand_utterance(Dialogue& dialogue, const std::vector<Heard>& heard, double begin,
+                                         double end, const HearingLimits& limits = {});
 
 }  // namespace icome::speech

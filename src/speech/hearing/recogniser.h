@@ -26,7 +26,7 @@ struct Heard {
   /// How well the sounds of its words fit: the natural logarithm of their likelihood, beside that of the
   /// best sounds for a frame of 10 ms; 0 at best.
   double score = 0.0;
-  /// How much less likely it is than the best words in any order, as a natural logarithm; 0 at best.
+  /// The likelihood that it lacks beside the best words in any order, as a natural logarithm; 0 at best.
   double behind = 0.0;
 
   std::string sentence() const;
@@ -46,8 +46,8 @@ class Recogniser {
   /// sentences with these are not heard. Fails where the grammar has no sentence.
   virtual base::Result<std::vector<std::string>> set_grammar(const Grammar& grammar,
                                                              const HeardRules& rules) = 0;
-  /// What may have been said in one utterance, whole: different sentences, the likeliest first; none where
-  /// it is no sentence of the grammar.
+  /// The sentences that may have been said in one utterance, whole: different ones, the likeliest first; none
+  /// where it is no sentence of the grammar.
   virtual base::Result<std::vector<Heard>> recognise(Sound utterance) = 0;
 };
 

@@ -67,7 +67,7 @@ bool is_filler(std::string_view word) {
          word == "(NULL)";
 }
 
-/// What begins with the first sound of a word is misheard, so there is a pause at both ends.
+/// Sound that begins with the first sound of a word is misheard, so there is a pause at both ends.
 constexpr int kPause = kSampleRate / 5;  // samples
 std::vector<std::int16_t> between_pauses(Sound utterance) {
   std::vector<std::int16_t> sound(utterance.size() + 2 * std::size_t(kPause), 0);
@@ -164,7 +164,7 @@ class SphinxRecogniser final : public Recogniser {
     return difference * logmath_log_to_ln(ps_get_logmath(decoder_.get()), kScoreUnit);
   }
 
-  /// How well the sounds of the best words fit, for a frame, and the frames of speech.
+  /// The fit of the sounds of the best words (Heard::score), and the frames of speech.
   std::pair<double, double> fit_of_best() {
     double sum = 0.0, frames = 0.0;
     for (ps_seg_t* segment = ps_seg_iter(decoder_.get()); segment; segment = ps_seg_next(segment)) {

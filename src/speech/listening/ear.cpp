@@ -11,11 +11,11 @@ namespace {
 constexpr double kStep = 0.02;     // s, between two looks at the source
 constexpr double kPatience = 2.0;  // s, until a lost source is looked for again
 
-double now() {
+}  // namespace
+
+double clock_of_ears() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-}  // namespace
 
 Ear::Ear(OpenSource open, MakeRecogniser make, const VoiceSettings& voice)
     : open_(std::move(open)),
@@ -94,7 +94,7 @@ void Ear::listen(SoundSource& source, Recogniser& recogniser, const std::stop_to
         state.problem = came.error().message;
       });
     samples += came->size();
-    clock = std::min(clock, now() - double(samples) / kSampleRate);
+    clock = std::min(clock, clock_of_ears() - double(samples) / kSampleRate);
     auto utterances = activity.hear(*came);
     change([&](EarState& state) {
       state.doing = !utterances.empty()      ? EarState::Doing::Understanding
@@ -124,12 +124,12 @@ void Ear::follow(Recogniser& recogniser) {
 }
 
 void Ear::understand(Recogniser& recogniser, Utterance utterance, double clock) {
-  const double begun = now();
+  const double begun = clock_of_ears();
   auto sentences = recogniser.recognise(utterance.samples);
   if (!sentences) return change([&](EarState& state) { state.problem = sentences.error().message; });
   const std::lock_guard lock(mutex_);
-  heard_.push_back(
-      {clock + utterance.begin, clock + utterance.speech_end, std::move(*sentences), now() - begun});
+  heard_.push_back({clock + utterance.begin, clock + utterance.speech_end, std::move(*sentences),
+                    clock_of_ears() - begun});
 }
 
 }  // namespace icome::speech

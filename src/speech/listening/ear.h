@@ -14,14 +14,17 @@
 
 namespace icome::speech {
 
-/// What somebody said while the ear listened.
+/// The time now on the clock that ears tell times by, s: the steady clock.
+double clock_of_ears();
+
+/// An utterance that an ear heard.
 struct HeardUtterance {
-  double begin = 0.0, end = 0.0;      // s, of its sound and of its last word; the steady clock
+  double begin = 0.0, end = 0.0;      // s, of its sound and of its last word
   std::vector<Heard> sentences = {};  // as Recogniser::recognise(); their times are from `begin`
   double seconds = 0.0;               // from the end of the utterance to this
 };
 
-/// What an ear does now.
+/// The state of an ear.
 struct EarState {
   enum class Doing : std::uint8_t { Starting, Listening, Hearing, Understanding, Lost };
 
@@ -44,7 +47,7 @@ class Ear {
 
   /// Sentences of these rules are recognised from now on; before the first call the source is not opened.
   void expect(Grammar grammar, std::string sentence, std::string usual);
-  /// What was heard since the last call.
+  /// The utterances since the last call.
   std::vector<HeardUtterance> take();
   EarState state() const;
 

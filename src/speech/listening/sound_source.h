@@ -13,7 +13,7 @@ namespace icome::speech {
 class SoundSource {
  public:
   virtual ~SoundSource() = default;
-  /// What came since the last call; does not wait. Fails where the source is lost.
+  /// The samples since the last call; does not wait. Fails where the source is lost.
   virtual base::Result<std::vector<std::int16_t>> read() = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <QPainter>
 #include <algorithm>
+#include <cmath>
 
 #include "ui/look/theme.h"
 
@@ -41,10 +42,12 @@ void VoiceAgent::show(Mood mood) {
   } else {
     mood_ = mood;
   }
-  update();
+  if (this->mood() != drawn_) update();
 }
 
 void VoiceAgent::show_level(double level) {
+  constexpr double kSeen = 0.02;
+  if (std::abs(level - level_) < kSeen) return;
   level_ = std::clamp(level, 0.0, 1.0);
   update();
 }
@@ -57,7 +60,7 @@ VoiceAgent::Mood VoiceAgent::mood() const {
 void VoiceAgent::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
-  const Mood mood = this->mood();
+  const Mood mood = drawn_ = this->mood();
   const QColor colour = colour_of(mood);
   const QPointF centre(kAgentSide / 2.0, kAgentSide / 2.0);
   // A ring as wide as what is heard is loud.

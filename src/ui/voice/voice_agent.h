@@ -25,6 +25,7 @@ class VoiceAgent final : public QWidget {
   Mood mood_ = Mood::Asleep, outcome_ = Mood::Asleep;
   QElapsedTimer since_outcome_;
   double level_ = 0.0;
+  Mood drawn_ = Mood::Asleep;
 };
 
 }  // namespace icome::ui

@@ -204,7 +204,7 @@ TEST(NoiseFloor, IsAThirtiethOfTheSoundWhereItIsQuieter) {
   const double wanted = loudness(sound) / 30.0;
   EXPECT_NEAR(loudness(Sound(noisy).first(16000)), wanted, 0.15 * wanted);
   EXPECT_EQ(with_noise_floor(sound), noisy);
-  // What is as loud in its quietest moments stays as it is.
+  // Sound that is as loud in its quietest moments stays as it is.
   std::vector<std::int16_t> shouted(kSampleRate, 1000);
   EXPECT_EQ(with_noise_floor(shouted), shouted);
   EXPECT_TRUE(with_noise_floor({}).empty());

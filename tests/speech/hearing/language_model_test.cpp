@@ -14,7 +14,8 @@ const std::vector<LanguageModel::Sentence> kSaid{
 
 TEST(LanguageModel, IsAsKneserAndNeyAndWittenAndBellSay) {
   const LanguageModel model(kSaid);
-  // Of 12 pairs of words that are seen, "box" ends 2; after "the" come "box" and "red": half is for others.
+  // There are 12 pairs of words, 2 of which end with "box"; after "the" come "box" and "red": half is for
+  // others.
   const double box = 2.0 / 12.0, after_the = 0.5 * 0.5 + 0.5 * box;
   EXPECT_NEAR(model.probability({}, "box"), box, 1e-12);
   EXPECT_NEAR(model.probability(std::vector<std::string>{"the"}, "box"), after_the, 1e-12);

@@ -48,6 +48,20 @@ TEST_F(LikelyMeant, IsTheLikeliestThatCanBeDone) {
   EXPECT_EQ(meant({heard("the blue box", 0.0)}), "the blue box");
 }
 
+TEST_F(LikelyMeant, IsDone) {
+  const auto done =
+      understand_utterance(dialogue_, {heard("the blue box", 0.0), heard("a blue box", 30.0)}, 1.0, 2.0);
+  EXPECT_TRUE(done.answer.accepted());
+  EXPECT_EQ(done.answer.heard, "a blue box");
+  EXPECT_EQ(done.heard->sentence(), "a blue box");
+  EXPECT_EQ(design_.world().objects().size(), 2U);
+  const auto unlikely = understand_utterance(dialogue_, {heard("a cone", 150.0)}, 1.0, 2.0);
+  EXPECT_FALSE(unlikely.answer.accepted());
+  EXPECT_EQ(unlikely.answer.heard, "a cone");
+  EXPECT_FALSE(understand_utterance(dialogue_, {}, 1.0, 2.0).heard);
+  EXPECT_EQ(design_.world().objects().size(), 2U);
+}
+
 TEST_F(LikelyMeant, IsNothingWhereAllAreUnlikely) {
   EXPECT_EQ(meant({}), "");
   EXPECT_EQ(meant({heard("a red box", 150.0)}), "");

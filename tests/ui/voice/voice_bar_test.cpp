@@ -1,6 +1,7 @@
 // Voice commands of the window, typed and spoken.
 #include "ui/voice/voice_bar.h"
 
+#include <QToolButton>
 #include <cmath>
 #include <filesystem>
 
@@ -82,6 +83,17 @@ TEST_F(VoiceBarTest, MenusAreOpenedAndChosenFrom) {
   ASSERT_NE(session().menu().use(), nullptr) << text("voice.reply").toStdString();
   type("choose ball");
   EXPECT_TRUE(until([&] { return named("sphere").size() == 1; })) << text("voice.reply").toStdString();
+}
+
+TEST_F(VoiceBarTest, ListensOnlyWhileItIsShown) {
+  auto* const microphone = window_->findChild<QToolButton*>("voice.microphone");
+  EXPECT_EQ(mood(), VoiceAgent::Mood::Asleep);
+  microphone->setChecked(true);
+  EXPECT_TRUE(until([&] { return mood() != VoiceAgent::Mood::Asleep; }));
+  action("tool.voice")->trigger();
+  EXPECT_FALSE(microphone->isChecked());
+  action("tool.voice")->trigger();
+  EXPECT_TRUE(until([&] { return mood() == VoiceAgent::Mood::Asleep; }));
 }
 
 TEST_F(VoiceBarTest, AnotherDesignIsSpokenOfAnew) {
