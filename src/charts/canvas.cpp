@@ -1,5 +1,6 @@
 #include "charts/canvas.h"
 
+#include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <cairo.h>
 
@@ -77,6 +78,16 @@ std::size_t character_length(std::string_view text) {
   return code < kSmallest[length] || code > 0x10ffff || surrogate ? 0 : length;
 }
 
+/// Cairo's pixel, whose colours are premultiplied, as an image has it.
+void append_plain(std::vector<std::uint8_t>& rgba, std::uint32_t word) {
+  const std::uint32_t alpha = word >> 24;
+  for (const int shift : {16, 8, 0}) {
+    const std::uint32_t channel = word >> shift & 0xff;
+    rgba.push_back(static_cast<std::uint8_t>(alpha == 0 ? 0 : (255 * channel + alpha / 2) / alpha));
+  }
+  rgba.push_back(static_cast<std::uint8_t>(alpha));
+}
+
 cairo_status_t append_to_text(void* text, const unsigned char* bytes, unsigned int count) {
   static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
   return CAIRO_STATUS_SUCCESS;
@@ -98,12 +109,12 @@ std::string printable(std::string_view text) {
 struct Canvas::Page {
   cairo_surface_t* surface;
   cairo_t* cairo;
-  double width;                      // page units
-  double height;                     // page units
-  std::unique_ptr<std::string> svg;  // the output of the surface; null for a page with pixels
+  double width;                       // page units
+  double height;                      // page units
+  std::unique_ptr<std::string> file;  // the output of the surface; null for a page with pixels
 
   Page(cairo_surface_t* made, double wide, double high, std::unique_ptr<std::string> text)
-      : surface(made), cairo(cairo_create(surface)), width(wide), height(high), svg(std::move(text)) {}
+      : surface(made), cairo(cairo_create(surface)), width(wide), height(high), file(std::move(text)) {}
   Page(const Page&) = delete;
   Page& operator=(const Page&) = delete;
   ~Page() {
@@ -124,12 +135,18 @@ Canvas::Canvas(std::unique_ptr<Page> page) : page_(std::move(page)) {
   cairo_font_options_destroy(options);
 }
 
-Canvas::Canvas(int width, int height, double scale)
-    : Canvas(std::make_unique<Page>(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height),
-                                    width / scale, height / scale, nullptr)) {
-  cairo_scale(page_->cairo, scale, scale);
+std::unique_ptr<Canvas::Page> Canvas::pixels(int width, int height, double scale) {
+  auto page = std::make_unique<Page>(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height),
+                                     width / scale, height / scale, nullptr);
+  cairo_scale(page->cairo, scale, scale);
+  return page;
+}
+
+Canvas::Canvas(int width, int height, double scale) : Canvas(pixels(width, height, scale)) {
   fill({0.0, 0.0, width / scale, height / scale}, kPaper);
 }
+
+Canvas Canvas::clear(int width, int height, double scale) { return Canvas(pixels(width, height, scale)); }
 
 Canvas Canvas::of_lines(double width, double height) {
   auto text = std::make_unique<std::string>();
@@ -138,6 +155,14 @@ Canvas Canvas::of_lines(double width, double height) {
   Canvas canvas(std::make_unique<Page>(surface, width, height, std::move(text)));
   canvas.fill({0.0, 0.0, width, height}, kPaper);
   return canvas;
+}
+
+Canvas Canvas::of_pdf(double width, double height) {
+  auto bytes = std::make_unique<std::string>();
+  cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(append_to_text, bytes.get(), width, height);
+  // Otherwise it would be the present time, and no two files would be equal.
+  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
+  return Canvas(std::make_unique<Page>(surface, width, height, std::move(bytes)));
 }
 
 Canvas::Canvas(Canvas&&) noexcept = default;
@@ -170,6 +195,23 @@ void Canvas::fill_polygon(std::span<const Vector2> points, const Colour& colour)
   trace(page_->cairo, points);
   set_colour(page_->cairo, colour);
   cairo_fill(page_->cairo);
+}
+
+void Canvas::fill_path(std::span<const CubicLoop> loops, const Colour& colour) {
+  cairo_t* cairo = page_->cairo;
+  cairo_new_path(cairo);
+  for (const CubicLoop& loop : loops) {
+    if (loop.points.empty()) continue;
+    cairo_move_to(cairo, bounded(loop.points[0].x()), bounded(loop.points[0].y()));
+    for (std::size_t i = 3; i < loop.points.size(); i += 3) {
+      const Vector2* p = &loop.points[i - 2];
+      cairo_curve_to(cairo, bounded(p[0].x()), bounded(p[0].y()), bounded(p[1].x()), bounded(p[1].y()),
+                     bounded(p[2].x()), bounded(p[2].y()));
+    }
+    cairo_close_path(cairo);
+  }
+  set_colour(cairo, colour);
+  cairo_fill(cairo);
 }
 
 void Canvas::fill_disc(const Vector2& centre, double radius, const Colour& colour) {
@@ -244,8 +286,19 @@ void Canvas::clip(const Area& area) {
 
 void Canvas::unclip() { cairo_restore(page_->cairo); }
 
+void Canvas::begin_group(const Area& area) {
+  clip(area);
+  cairo_push_group(page_->cairo);
+}
+
+void Canvas::end_group(double opacity) {
+  cairo_pop_group_to_source(page_->cairo);
+  cairo_paint_with_alpha(page_->cairo, opacity);
+  unclip();
+}
+
 Image Canvas::snapshot() const {
-  assert(!page_->svg);
+  assert(!page_->file);
   cairo_surface_flush(page_->surface);
   Image out{
       cairo_image_surface_get_width(page_->surface), cairo_image_surface_get_height(page_->surface), {}};
@@ -256,18 +309,22 @@ Image Canvas::snapshot() const {
     for (int x = 0; x < out.width; ++x) {
       std::uint32_t word = 0;
       std::memcpy(&word, data + std::ptrdiff_t{y} * stride + std::ptrdiff_t{x} * 4, sizeof word);
-      // The page starts out opaque white and stays opaque, so colours are not premultiplied by less than 1.
-      for (const int shift : {16, 8, 0}) out.rgba.push_back(static_cast<std::uint8_t>(word >> shift));
-      out.rgba.push_back(255);
+      append_plain(out.rgba, word);
     }
   }
   return out;
 }
 
 std::string Canvas::svg() {
-  assert(page_->svg);
+  assert(cairo_surface_get_type(page_->surface) == CAIRO_SURFACE_TYPE_SVG);
   cairo_surface_finish(page_->surface);
-  return *page_->svg;
+  return *page_->file;
+}
+
+std::string Canvas::pdf() {
+  assert(cairo_surface_get_type(page_->surface) == CAIRO_SURFACE_TYPE_PDF);
+  cairo_surface_finish(page_->surface);
+  return *page_->file;
 }
 
 std::string fitted(const Canvas& canvas, std::string_view text, const TextStyle& style, double width) {

@@ -26,6 +26,12 @@ struct Stroke {
   std::vector<double> dashes;  ///< lengths on, off, on, ...; empty is solid
 };
 
+/// A closed loop of cubics: where it starts, then three points (two control points and the end) for each. Its
+/// end is joined to its start by a straight line where they differ.
+struct CubicLoop {
+  std::vector<base::Vector2> points;  ///< page units
+};
+
 /// The look of text, which is set in the DejaVu Sans family.
 struct TextStyle {
   double size = 14.0;  ///< page units
@@ -35,14 +41,18 @@ struct TextStyle {
   double turn = 0.0;   ///< rad, counter-clockwise
 };
 
-/// A white page to draw and write on. Owns its pixels, or the recorded drawing if it has none; `scale` pixels
-/// make one page unit.
+/// A white or clear page to draw and write on. Owns its pixels, or the recorded drawing if it has none;
+/// `scale` pixels make one page unit.
 class Canvas {
  public:
   /// Sides in pixels, 1 ... 32767 each; scale > 0.
   Canvas(int width, int height, double scale);
+  /// The same, but where nothing is drawn the page is clear.
+  static Canvas clear(int width, int height, double scale);
   /// A page without pixels, which svg() gives; sides in page units.
   static Canvas of_lines(double width, double height);
+  /// A clear page without pixels, which pdf() gives; sides in page units, of which 72 make an inch.
+  static Canvas of_pdf(double width, double height);
   Canvas(Canvas&&) noexcept;
   ~Canvas();
 
@@ -56,6 +66,8 @@ class Canvas {
   void fill_gradient(std::span<const base::Vector2> polygon, const Area& span,
                      std::span<const Colour> colours);
   void fill_polygon(std::span<const base::Vector2> points, const Colour& colour);
+  /// All loops as one path: what they wind around, in all, another number of times than zero.
+  void fill_path(std::span<const CubicLoop> loops, const Colour& colour);
   void fill_disc(const base::Vector2& centre, double radius, const Colour& colour);
   void circle(const base::Vector2& centre, double radius, const Stroke& stroke);
   /// An open line through the points, with round joins and ends.
@@ -71,14 +83,23 @@ class Canvas {
   void clip(const Area& area);
   void unclip();
 
+  /// What is drawn until end_group(), only inside the area, becomes one picture, which is then laid on the
+  /// page with that opacity (0 to 1): things in a group do not show through each other.
+  void begin_group(const Area& area);
+  void end_group(double opacity);
+
   /// The drawing so far. Only for a page with pixels.
   Image snapshot() const;
   /// The drawing as an SVG file in which letters are shapes, so that it needs no font; a page unit is a
   /// pixel of CSS. Only for a page without pixels, which accepts no drawing afterwards.
   std::string svg();
+  /// The drawing as a PDF file of one page, the same bytes at any time. Only for a page made by of_pdf(),
+  /// which accepts no drawing afterwards.
+  std::string pdf();
 
  private:
   struct Page;
+  static std::unique_ptr<Page> pixels(int width, int height, double scale);
   explicit Canvas(std::unique_ptr<Page> page);
 
   std::unique_ptr<Page> page_;

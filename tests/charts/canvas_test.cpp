@@ -66,6 +66,66 @@ TEST(Canvas, WritesWhatWasDrawnAsSvg) {
   EXPECT_EQ(svg.find("font-family"), std::string::npos);
 }
 
+/// A square as a loop of straight cubics; clockwise on the page or, if `back`, the other way round.
+CubicLoop square(double from, double to, bool back) {
+  CubicLoop loop{{{from, from}}};
+  const Vector2 corners[] = {{to, from}, {to, to}, {from, to}};
+  for (int i = 0; i < 3; ++i) {
+    const Vector2 corner = corners[back ? 2 - i : i];
+    const Vector2 last = loop.points.back();
+    loop.points.insert(loop.points.end(), {last, corner, corner});
+  }
+  return loop;
+}
+
+TEST(Canvas, FillsWhatALoopWindsAroundAndCutsHolesByLoopsTheOtherWayRound) {
+  const auto middle = [](bool back) {
+    Canvas canvas(100, 100, 1.0);
+    const CubicLoop loops[] = {square(10, 90, false), square(30, 70, back)};
+    canvas.fill_path(loops, {0, 0, 0});
+    EXPECT_EQ(canvas.snapshot().pixel(20, 20)[0], 0);
+    EXPECT_EQ(canvas.snapshot().pixel(95, 50)[0], 255);
+    return int(canvas.snapshot().pixel(50, 50)[0]);
+  };
+  EXPECT_EQ(middle(false), 0);
+  EXPECT_EQ(middle(true), 255);
+}
+
+TEST(Canvas, ThingsInAGroupDoNotShowThroughEachOther) {
+  Canvas canvas(30, 10, 1.0);
+  canvas.begin_group({0, 0, 20, 10});
+  canvas.fill({0, 0, 10, 10}, {1, 0, 0});
+  canvas.fill({5, 0, 25, 10}, {0, 0, 1});
+  canvas.end_group(0.5);
+  const Image image = canvas.snapshot();
+  EXPECT_EQ(image.pixel(7, 5)[0], image.pixel(15, 5)[0]);  // no red below the blue
+  EXPECT_NEAR(image.pixel(7, 5)[0], 128, 1);
+  EXPECT_EQ(image.pixel(25, 5)[0], 255);  // outside the area
+}
+
+TEST(Canvas, AClearPageKeepsItsColoursWhereLittleIsDrawn) {
+  Canvas canvas = Canvas::clear(20, 10, 1.0);
+  canvas.fill({0, 0, 10, 10}, {1.0, 0.5, 0.0, 0.25});
+  const Image image = canvas.snapshot();
+  EXPECT_EQ(image.pixel(15, 5)[3], 0);
+  EXPECT_NEAR(image.pixel(5, 5)[3], 64, 1);
+  EXPECT_NEAR(image.pixel(5, 5)[0], 255, 2);
+  EXPECT_NEAR(image.pixel(5, 5)[1], 128, 3);
+}
+
+TEST(Canvas, WritesTheSamePdfTwice) {
+  const auto file = [] {
+    Canvas canvas = Canvas::of_pdf(144, 72);
+    const CubicLoop loops[] = {square(10, 60, false)};
+    canvas.fill_path(loops, {0, 0, 1});
+    return canvas.pdf();
+  };
+  EXPECT_TRUE(file().starts_with("%PDF-"));
+  EXPECT_NE(file().find("/MediaBox [ 0 0 144 72 ]"), std::string::npos) << file();
+  EXPECT_NE(file().find("20000101"), std::string::npos);
+  EXPECT_EQ(file(), file());
+}
+
 TEST(Fitted, CutsLongTextWithAnEllipsis) {
   const Canvas canvas(100, 100, 1.0);
   const TextStyle style;
