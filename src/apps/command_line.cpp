@@ -49,6 +49,7 @@ struct Entries {
   HeadOptions head;
   MenuOptions menu;
   SpeechOptions speech;
+  SketchOptions sketch;
   DesktopCommandOptions desktop;
   TouchOptions touch;
   std::string friction;
@@ -532,6 +533,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   add_head(app, entries.head);
   add_menu(app, entries.menu);
   add_speech(app, entries.speech);
+  add_sketch(app, entries.sketch);
   const CLI::App* const named = named_subcommand(app, 1, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
   if (argc > 1 && argv[1][0] != '-' && named == nullptr && !is_design_name(argv[1]))
@@ -587,6 +589,8 @@ CommandLine parse_command_line(int argc, char** argv) {
     command_line.menu = std::move(entries.menu);
   } else if (!entries.speech.task.empty()) {
     command_line.speech = std::move(entries.speech);
+  } else if (!entries.sketch.task.empty()) {
+    command_line.sketch = std::move(entries.sketch);
   } else if (techniques.parsed()) {
     auto options = understood_techniques(entries);
     if (!options) return bad_usage(options.error().message, help);

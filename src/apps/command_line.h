@@ -10,6 +10,7 @@
 #include "apps/menu/menu_command.h"
 #include "apps/remote/keep_command.h"
 #include "apps/serving/serving_options.h"
+#include "apps/sketch/sketch_options.h"
 #include "apps/speech/speech_options.h"
 #include "apps/stats/stats_options.h"
 #include "apps/study/study_options.h"
@@ -36,6 +37,7 @@ struct CommandLine {
   std::optional<HeadOptions> head;
   std::optional<MenuOptions> menu;
   std::optional<SpeechOptions> speech;
+  std::optional<SketchOptions> sketch;
   std::optional<DesktopCommandOptions> desktop;
   int exit_code = 0;  // to return when none is set: help or version were printed, or an error
 };

@@ -13,6 +13,7 @@
 #include "apps/menu/menu_command.h"
 #include "apps/remote/keep_command.h"
 #include "apps/serving/serving_command.h"
+#include "apps/sketch/sketch_command.h"
 #include "apps/speech/speech_command.h"
 #include "apps/stats/stats_command.h"
 #include "apps/study/study_command.h"
@@ -37,6 +38,7 @@ int main(int argc, char** argv) {
     if (command_line.head) return icome::apps::run_head(*command_line.head);
     if (command_line.menu) return icome::apps::run_menu(*command_line.menu);
     if (command_line.speech) return icome::apps::run_speech(*command_line.speech);
+    if (command_line.sketch) return icome::apps::run_sketch(*command_line.sketch);
     if (command_line.keep) return icome::apps::run_keep(*command_line.keep);
     if (command_line.desktop) return icome::apps::run_desktop_window(argc, argv, *command_line.desktop);
     return command_line.exit_code;

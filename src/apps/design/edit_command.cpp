@@ -117,7 +117,9 @@ int end_with_errors(const EditOptions& options, const EditReport& report, Status
 }
 
 int list_operations(const EditOptions& options) {
-  const auto list = operation_list(options.operation, options.json);
+  std::vector<const interaction::Operation*> all;
+  for (const interaction::Operation& operation : interaction::operations()) all.push_back(&operation);
+  const auto list = operation_list(all, "operation", options.operation, options.json);
   if (list) return print_answer(*list);
   StatusLine status;
   return end_without_result(list.error(), status);

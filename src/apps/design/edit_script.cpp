@@ -49,7 +49,11 @@ bool perform_line(const PerformLine& perform, std::string_view text, std::size_t
 
 base::Result<std::string> script_text(const EditOptions& options) {
   if (!options.replay.empty()) return io::read_bytes(options.replay, kLargestScript);
-  if (options.apply != "-") return io::read_bytes(options.apply, kLargestScript);
+  return script_text(options.apply);
+}
+
+base::Result<std::string> script_text(const std::filesystem::path& apply) {
+  if (apply != "-") return io::read_bytes(apply, kLargestScript);
   std::string text;
   std::vector<char> piece(1U << 20U);
   while (std::cin.read(piece.data(), std::streamsize(piece.size())) || std::cin.gcount() > 0) {

@@ -32,7 +32,9 @@ struct EditOutcome {
   bool stopped = false;  // on request, before the end
 };
 
-/// The text of the script of `icome edit`: a file or standard input, or a recording.
+/// The text of a script: a file, or standard input for "-".
+base::Result<std::string> script_text(const std::filesystem::path& apply);
+/// The text of the script of `icome edit`, or of the recording in its place.
 base::Result<std::string> script_text(const EditOptions& options);
 
 /// Performs one operation; `line` is its number, from 1.

@@ -4,8 +4,9 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
 
-#include "interaction/operations/operation.h"
+#include "base/near_names.h"
 
 namespace icome::apps {
 namespace {
@@ -55,19 +56,21 @@ std::string text_of(const std::vector<const Operation*>& operations) {
 
 }  // namespace
 
-base::Result<std::string> operation_list(const std::string& only, bool json) {
+base::Result<std::string> operation_list(std::span<const Operation* const> operations,
+                                         const std::string& what, const std::string& only, bool json) {
   std::vector<const Operation*> chosen;
-  if (only.empty()) {
-    for (const Operation& operation : interaction::operations()) chosen.push_back(&operation);
-  } else {
-    const auto found = interaction::find_operation(only);
-    if (!found) return tl::unexpected(found.error());
-    chosen.push_back(*found);
+  std::vector<std::string> names;
+  for (const Operation* operation : operations) {
+    names.push_back(operation->name);
+    if (only.empty() || operation->name == only) chosen.push_back(operation);
   }
+  if (chosen.empty())
+    return base::fail(
+        fmt::format("there is no {} '{}'{}", what, only, base::suggestion(only, std::move(names))));
   if (!json) return text_of(chosen);
   Json document;
-  document["operations"] = Json::array();
-  for (const Operation* operation : chosen) document["operations"].push_back(json_of_operation(*operation));
+  document[what + "s"] = Json::array();
+  for (const Operation* operation : chosen) document[what + "s"].push_back(json_of_operation(*operation));
   return document.dump(2) + "\n";
 }
 

@@ -1,0 +1,179 @@
+#include "apps/sketch/sketch_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "apps/number_range.h"
+
+namespace icome::apps {
+namespace {
+
+constexpr const char* kSketchNotes =
+    "Examples:\n"
+    "  icome sketch fit strokes.csv --json          curves of a pen's strokes\n"
+    "  icome sketch render strokes.scap page.png    how they look\n"
+    "  icome sketch edit drawing.svg --apply edits.jsonl --out new.svg\n"
+    "\n"
+    "All lengths are mm; x is to the right and y down (docs/sketch.md).";
+
+constexpr const char* kFitNotes =
+    "Examples:\n"
+    "  icome sketch fit strokes.csv                 a table: samples, segments, errors\n"
+    "  icome sketch fit signature.svc --error 0.05 --json\n"
+    "  icome sketch fit strokes.inkml --out drawing.svg\n"
+    "  icome sketch fit strokes.csv --method thesis --shared 5\n"
+    "\n"
+    "STROKES: CSV with the header t,x,y,pressure (s, mm, mm, 0 to 1; a row with pressure 0 ends a stroke),\n"
+    "InkML, .svc (SVC 2004), .scap (StrokeStrip), .dat (MyPaint) or .events (evemu).\n"
+    "\n"
+    "The exact method keeps the whole line from sample to sample and the curve within --error of each "
+    "other,\n"
+    "both ways, with few segments that turn into each other smoothly but at corners. The method of the "
+    "thesis\n"
+    "(4.2 to 4.7) keeps the root of the mean square within it, with samples that neighbours share; its\n"
+    "greatest error is told, and may be larger.\n"
+    "\n"
+    "JSON: {file, method, error_mm, notes, strokes: [{samples, segments: [[[x,y],[x,y],[x,y],[x,y]], ...],\n"
+    "widths: [[t0,w0,t1,w1], ...] (t counts segments: 2.5 is the middle of the third; w in mm), "
+    "max_error_mm\n"
+    "(the greatest distance of curve and line, certainly not more), corners (joints that break)}]}.";
+
+constexpr const char* kRenderNotes =
+    "Examples:\n"
+    "  icome sketch render drawing.svg page.png --size 2400\n"
+    "  icome sketch render strokes.csv page.pdf     as large as it is\n"
+    "  icome sketch render strokes.scap lines.svg --centre-lines\n"
+    "\n"
+    "IN: an SVG file, or strokes as for icome sketch fit, which become curves first. An SVG file of this\n"
+    "program keeps all that was drawn; of others the paths and shapes are taken, and what is skipped is "
+    "told.\n"
+    "\n"
+    "JSON: {in, out, layers, strokes, segments, width_mm, height_mm, notes}.";
+
+constexpr const char* kEditNotes =
+    "Examples:\n"
+    "  icome sketch edit new --apply edits.jsonl --out drawing.svg\n"
+    "  icome sketch edit strokes.csv --apply edits.jsonl --out page.png --json\n"
+    "  icome sketch edit --help-tools               all tools with their parameters\n"
+    "  icome sketch edit --help-tools erase         one of them\n"
+    "\n"
+    "edits.jsonl may be:\n"
+    "  {\"op\": \"draw\", \"way\": [[20, 20], [60, 50], [100, 20]], \"closed\": true, \"fill\": \"gold\"}\n"
+    "  {\"op\": \"pull\", \"at\": [60, 50], \"to\": [60, 70]}\n"
+    "  {\"op\": \"lasso\", \"way\": [[0, 0], [50, 0], [50, 90], [0, 90]]}\n"
+    "  {\"op\": \"rotate\", \"degrees\": 10}\n"
+    "  {\"op\": \"erase\", \"way\": [[90, 0], [90, 60]], \"radius\": 3}\n"
+    "\n"
+    "IN: new for an empty page of A4, an SVG file, or strokes as for icome sketch fit. OUT: .svg keeps all,\n"
+    ".png and .pdf are pictures. Empty lines and lines that begin with # are skipped. undo and redo are\n"
+    "tools, too. A line that is wrong ends the run with its number, and nothing is written.\n"
+    "\n"
+    "JSON: {in, out (null when nothing was written), operations (how many were done), errors: [{line, op,\n"
+    "message}], notes: [{line, op, text}], layers, strokes, segments, hash (equal for equal drawings)}.";
+
+constexpr const char* kListNotes =
+    "JSON: {in, width_mm, height_mm, notes, layers: [{number, name, visible, locked, strokes: [{number,\n"
+    "segments, length_mm, widest_mm, colour, opacity, fill (or null), closed, bounds: [x0,y0,x1,y1]}]}]}.";
+
+void add_fit_options(CLI::App& command, SketchFitOptions& fit) {
+  command.add_option("--error", fit.error_mm, "How far a curve may be from the strokes (default 0.1)")
+      ->type_name("MM")
+      ->check(number_range(0.0001, 1000.0));
+  command.add_option("--method", fit.method, "How curves are fitted (default exact)")
+      ->type_name("exact|thesis")
+      ->check(CLI::IsMember({"exact", "thesis"}));
+  command
+      .add_option("--shared", fit.shared,
+                  "Samples that neighbours share, for the thesis's method (default 3)")
+      ->type_name("S")
+      ->check(number_range(0.0, 50.0));
+  command.add_flag("--no-refit", fit.no_refit, "Leave the segments as they were made while the pen moved");
+  command.add_option("--thinnest", fit.thinnest_mm, "Width of the line without pressure (default 0.2)")
+      ->type_name("MM")
+      ->check(number_range(0.0, 1000.0));
+  command.add_option("--widest", fit.widest_mm, "Width of the line at full pressure (default 1)")
+      ->type_name("MM")
+      ->check(number_range(0.0, 1000.0));
+}
+
+void add_lines_option(CLI::App& command, SketchOptions& options) {
+  command.add_flag("--centre-lines", options.centre_lines,
+                   "In SVG files, write lines with a width instead of their outlines");
+}
+
+CLI::App& add_task(CLI::App& sketch, const char* name, const char* summary, const char* notes,
+                   SketchOptions& options) {
+  CLI::App& task = *sketch.add_subcommand(name, summary);
+  task.footer(notes);
+  task.add_flag("--json", options.json, "Print a JSON document (fields below)");
+  task.callback([&options, name] { options.task = name; });
+  return task;
+}
+
+}  // namespace
+
+sketch::FitSettings SketchFitOptions::settings() const {
+  constexpr double kMetresOfMm = 0.001;
+  sketch::FitSettings settings;
+  settings.method = method == "thesis" ? sketch::FitMethod::Thesis : sketch::FitMethod::Exact;
+  settings.error = error_mm * kMetresOfMm;
+  settings.shared = shared;
+  settings.refit = !no_refit;
+  settings.tip = {thinnest_mm * kMetresOfMm, widest_mm * kMetresOfMm};
+  return settings;
+}
+
+void add_sketch(CLI::App& app, SketchOptions& options) {
+  CLI::App& sketch =
+      *app.add_subcommand("sketch", "Draw with a pen: curves of strokes, pictures, edits (thesis 4.5)");
+  sketch.footer(kSketchNotes);
+  sketch.require_subcommand(1);
+  CLI::App& fit = add_task(sketch, "fit", "Fit curves to the strokes of a pen", kFitNotes, options);
+  fit.add_option("STROKES", options.in, "A recording of a pen")->type_name("")->required();
+  add_fit_options(fit, options.fit);
+  fit.add_option("--out", options.out, "Write the drawing")->type_name("OUT.svg|png|pdf");
+  add_lines_option(fit, options);
+  CLI::App& render =
+      add_task(sketch, "render", "Make a picture of a drawing or of strokes", kRenderNotes, options);
+  render.add_option("IN", options.in, "An SVG file, or a recording of a pen")->type_name("")->required();
+  render.add_option("OUT", options.out, "The picture: .png, .svg or .pdf")->type_name("")->required();
+  render.add_option("--size", options.size, "Pixels along the longer side of a PNG file (default 1200)")
+      ->type_name("PIXELS")
+      ->check(number_range(1.0, 16384.0));
+  render
+      .add_option("--page", options.page,
+                  "What is shown: the paper, the drawing, or the paper where it is enough (default auto)")
+      ->type_name("auto|paper|drawing")
+      ->check(CLI::IsMember({"auto", "paper", "drawing"}));
+  render.add_option("--background", options.background, "white or none (default white)")
+      ->type_name("white|none")
+      ->check(CLI::IsMember({"white", "none"}));
+  add_fit_options(render, options.fit);
+  add_lines_option(render, options);
+  CLI::App& edit =
+      add_task(sketch, "edit", "Change a drawing by a script: each line is a tool with its parameters",
+               kEditNotes, options);
+  edit.add_option("IN", options.in, "new, an SVG file, or a recording of a pen")->type_name("");
+  auto* const apply = edit.add_option("--apply", options.apply, "Tools, one a line; - for standard input");
+  apply->type_name("EDITS.jsonl");
+  auto* const out = edit.add_option("--out", options.out, "Write the drawing")->type_name("OUT.svg|png|pdf");
+  edit.add_flag("--keep-going", options.keep_going, "Go on after lines that are wrong");
+  add_fit_options(edit, options.fit);
+  add_lines_option(edit, options);
+  auto* const help_tools =
+      edit.add_option("--help-tools", options.tool, "List all tools and their parameters, or one, and end")
+          ->type_name("[TOOL]")
+          ->expected(0, 1);
+  edit.callback([&options, apply, out, help_tools] {
+    options.task = "edit";
+    options.help_tools = help_tools->count() > 0;
+    if (options.help_tools) return;
+    if (options.in.empty()) throw CLI::RequiredError("IN");
+    if (apply->count() == 0) throw CLI::RequiredError("--apply");
+    if (out->count() == 0) throw CLI::RequiredError("--out");
+  });
+  CLI::App& list = add_task(sketch, "list", "List the layers and strokes of a drawing", kListNotes, options);
+  list.add_option("IN", options.in, "An SVG file, or a recording of a pen")->type_name("")->required();
+  add_fit_options(list, options.fit);
+}
+
+}  // namespace icome::apps

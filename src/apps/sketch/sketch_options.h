@@ -1,0 +1,44 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "sketch/fit/stroke_fit.h"
+
+namespace CLI {
+class App;
+}
+
+namespace icome::apps {
+
+/// How strokes become curves.
+struct SketchFitOptions {
+  double error_mm = 0.1;
+  unsigned shared = 3;
+  std::string method = "exact";
+  bool no_refit = false;
+  double thinnest_mm = 0.2;
+  double widest_mm = 1.0;
+
+  sketch::FitSettings settings() const;
+};
+
+/// The options of icome sketch.
+struct SketchOptions {
+  std::string task;  // "fit", "render", "edit" or "list"; empty: none was named
+  std::filesystem::path in;
+  std::filesystem::path out;
+  std::filesystem::path apply;  // edit: tools, one a line; "-": standard input
+  SketchFitOptions fit;
+  std::string page = "auto";         // render: auto, paper or drawing
+  int size = 1200;                   // render: pixels along the longer side
+  std::string background = "white";  // render: a colour or "none"
+  bool centre_lines = false;         // lines of SVG files as lines, not as outlines
+  bool keep_going = false;
+  bool help_tools = false;
+  std::string tool;  // with help_tools: only this one
+  bool json = false;
+};
+
+void add_sketch(CLI::App& app, SketchOptions& options);
+
+}  // namespace icome::apps

@@ -1,0 +1,68 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "geometry/curve/cubic_bezier.h"
+#include "sketch/fit/stroke_path.h"
+
+namespace icome::sketch {
+
+using geometry::CubicBezier;
+
+/// A curve of cubics that turns without a break from one to the next: joints with a direction each, and how
+/// far the control points lie before and behind them. Lengths in the units of the path that it is fitted to.
+class SmoothSpline {
+ public:
+  /// A joint of two segments, or an end.
+  struct Joint {
+    Vector2 place;
+    double direction;  ///< rad, of the way along the curve
+    double before;     ///< length of the handle that comes to it, > 0
+    double after;      ///< length of the handle that leaves it, > 0
+  };
+
+  explicit SmoothSpline(std::vector<Joint> joints) : joints_(std::move(joints)) {}
+  /// Of cubics that follow one another: at a joint of two it has the mean of their directions.
+  static SmoothSpline through(std::span<const CubicBezier> segments);
+
+  std::size_t segments() const { return joints_.size() - 1; }
+  CubicBezier segment(std::size_t i) const;
+  std::vector<CubicBezier> curve() const;
+  const std::vector<Joint>& joints() const { return joints_; }
+
+  /// May the curve turn at its ends? Their places always stay.
+  struct Freedom {
+    bool turn_first = true;
+    bool turn_last = true;
+  };
+
+  /// Brings the curve nearer to the points, which lie along the way in order: Gauss's and Newton's method on
+  /// the distances across the curve, in which great distances weigh more and more. Ends when the greatest is
+  /// `enough` or no longer falls. Gives the greatest certified distance of the curve and the line through the
+  /// points, both ways (certified_distance()).
+  double bring_near(std::span<const Vector2> points, const Freedom& freedom, double enough, int most_rounds);
+
+  /// Puts `part` in the place of the segments from joint `first` to joint `last`, whose places it begins and
+  /// ends with, after it was brought near to their points.
+  void replace(std::size_t first, std::size_t last, const SmoothSpline& part);
+
+  /// That distance for each segment, after the last bring_near().
+  const std::vector<double>& errors() const { return errors_; }
+  /// How many of those points lie before each joint.
+  const std::vector<std::size_t>& points_before() const { return points_before_; }
+
+ private:
+  struct Place;
+  class Normal;
+  double note_errors(std::span<const Vector2> points, const std::vector<Place>& places, double resolution);
+  /// The place of the line through the points that belongs to a joint.
+  Vector2 beside_joint(std::span<const Vector2> points, std::size_t joint) const;
+  double find_places(std::span<const Vector2> points, std::vector<Place>& places, int steps) const;
+  SmoothSpline moved_by(const std::vector<double>& step) const;
+
+  std::vector<Joint> joints_;
+  std::vector<double> errors_;
+  std::vector<std::size_t> points_before_;
+};
+
+}  // namespace icome::sketch
