@@ -14,6 +14,12 @@ constexpr int kMostHalvingsOfAPiece = 24;
 constexpr int kMostSteps = 20;
 constexpr double kSameT = 1e-6;
 
+/// How far the part of a cubic between two places leaves its chord, run through evenly in t.
+double bulge_of(const CubicBezier& cubic, double a, double b) {
+  const double bend = std::max(cubic.second_derivative(a).norm(), cubic.second_derivative(b).norm());
+  return (b - a) * (b - a) / 8.0 * bend;
+}
+
 /// Runs along a line and a cubic. Between two places of the line that have partners on the cubic, the cubic
 /// between the partners is held against the straight piece, place by place: that bounds both distances, as
 /// the pieces cover the line and, since they follow one another without a gap, the cubic between its ends.
@@ -25,7 +31,7 @@ class Comparison {
 
   void compare(const Vector2& a, double t_a, const Vector2& b, double t_b, int halvings) {
     const double ends = std::max(away(a, t_a), away(b, t_b));
-    const double bulge = bulge_between(t_a, t_b);
+    const double bulge = bulge_of(cubic_, t_a, t_b);
     if (!std::isfinite(ends + bulge)) {
       greatest_ = std::numeric_limits<double>::infinity();
       return;
@@ -66,61 +72,71 @@ class Comparison {
  private:
   double away(const Vector2& point, double t) const { return (cubic_.at(t) - point).norm(); }
 
-  /// How far the cubic between two places leaves its chord, run through evenly in t.
-  double bulge_between(double a, double b) const {
-    const double bend = std::max(cubic_.second_derivative(a).norm(), cubic_.second_derivative(b).norm());
-    return (b - a) * (b - a) / 8.0 * bend;
-  }
-
   const CubicBezier& cubic_;
   double resolution_;
   double greatest_ = 0.0;
 };
 
-/// The greatest distance of pieces of a curve from what an index holds: a piece whose ends are d and e away
-/// and which is l long is nowhere farther away than (d + e + l) / 2. Pieces for which that is too much are
-/// halved, the rest cannot matter.
+/// The greatest distance of pieces of a curve from what an index holds. A piece whose ends are d and e away
+/// and which is l long is nowhere farther away than (d + e + l) / 2; and if the nearest places of its ends
+/// lie on one cubic, nowhere farther than the greater of d and e and the bulges of both between. Pieces for
+/// which both are too much are halved, the rest cannot matter.
 class FarthestPlace {
  public:
-  FarthestPlace(const geometry::CurveIndex& others, double resolution)
-      : others_(others), resolution_(resolution) {}
+  /// `seen` is a distance that is known to be there.
+  FarthestPlace(std::span<const CubicBezier> others, double resolution, double seen)
+      : others_(others), index_(others), resolution_(resolution), seen_(seen), bound_(seen) {}
 
   double bound() const { return bound_; }
 
   void add(const CubicBezier& piece) {
-    add(piece, distance(piece.points[0]), distance(piece.points[3]), kMostHalvingsOfAPiece);
+    add(piece, nearest(piece.points[0]), nearest(piece.points[3]), kMostHalvingsOfAPiece);
   }
 
  private:
-  double distance(const Vector2& point) {
+  struct NearPlace {
+    double distance;
+    std::size_t cubic;
+    double t;
+  };
+
+  NearPlace nearest(const Vector2& point) {
     geometry::CurveIndex::Nearest found;
-    others_.nearest(point, std::numeric_limits<double>::infinity(), found);
+    index_.nearest(point, std::numeric_limits<double>::infinity(), found);
     const double distance = std::sqrt(found.on_curve.distance_squared);
     seen_ = std::max(seen_, distance);
-    return distance;
+    return {distance, found.curve, found.on_curve.t};
   }
 
-  void add(const CubicBezier& piece, double at_start, double at_end, int halvings) {
+  double most_of(const CubicBezier& piece, const NearPlace& start, const NearPlace& end) const {
     // No curve is longer than the lines between its control points.
     const double length = (piece.points[1] - piece.points[0]).norm() +
                           (piece.points[2] - piece.points[1]).norm() +
                           (piece.points[3] - piece.points[2]).norm();
-    const double most = 0.5 * (at_start + at_end + length);
+    const double by_length = 0.5 * (start.distance + end.distance + length);
+    if (start.cubic != end.cubic) return by_length;
+    const double by_shape = std::max(start.distance, end.distance) + bulge_of(piece, 0.0, 1.0) +
+                            bulge_of(others_[start.cubic], start.t, end.t);
+    return std::min(by_length, by_shape);
+  }
+
+  void add(const CubicBezier& piece, const NearPlace& start, const NearPlace& end, int halvings) {
+    const double most = most_of(piece, start, end);
     if (most <= std::max(bound_, seen_ + resolution_) || halvings == 0) {
-      bound_ = std::max(bound_, std::min(most, std::max(bound_, seen_ + resolution_)));
-      if (halvings == 0) bound_ = std::max(bound_, most);
+      bound_ = std::max(bound_, most);
       return;
     }
     const auto [left, right] = piece.split(0.5);
-    const double at_middle = distance(right.points[0]);
-    add(left, at_start, at_middle, halvings - 1);
-    add(right, at_middle, at_end, halvings - 1);
+    const NearPlace middle = nearest(right.points[0]);
+    add(left, start, middle, halvings - 1);
+    add(right, middle, end, halvings - 1);
   }
 
-  const geometry::CurveIndex& others_;
+  std::span<const CubicBezier> others_;
+  geometry::CurveIndex index_;
   double resolution_;
-  double seen_ = 0.0;   // the greatest distance of a place that was looked at
-  double bound_ = 0.0;  // no place of the pieces added is farther away
+  double seen_;   // the greatest distance of a place that was looked at
+  double bound_;  // no place of the pieces added is farther away
 };
 
 }  // namespace
@@ -144,13 +160,11 @@ double greatest_distance(std::span<const Vector2> line, std::span<const CubicBez
   std::vector<CubicBezier> pieces;
   for (std::size_t i = 1; i < line.size(); ++i) pieces.push_back(CubicBezier::line(line[i - 1], line[i]));
   if (line.size() == 1) pieces.push_back(CubicBezier::line(line[0], line[0]));
-  const geometry::CurveIndex line_index(pieces);
-  const geometry::CurveIndex curve_index(curve);
-  FarthestPlace of_line(curve_index, resolution);
+  FarthestPlace of_line(curve, resolution, 0.0);
   for (const CubicBezier& piece : pieces) of_line.add(piece);
-  FarthestPlace of_curve(line_index, resolution);
+  FarthestPlace of_curve(pieces, resolution, of_line.bound());
   for (const CubicBezier& piece : curve) of_curve.add(piece);
-  return std::max(of_line.bound(), of_curve.bound());
+  return of_curve.bound();
 }
 
 }  // namespace icome::sketch

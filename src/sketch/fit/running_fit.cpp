@@ -15,6 +15,9 @@ constexpr double kSmallHandle = 0.5;     // turns a curve aside from a straight 
 constexpr double kCornerAngle = 0.87;    // rad
 constexpr double kCornerReach = 3.0;     // on either side of a corner
 constexpr double kLeastReach = 1.0;
+constexpr double kCutOff = 0.7;        // by which the corner of two straight pieces may be cut off
+constexpr double kLeastTurn = 0.02;    // of its sine: flatter ones are cut off no farther
+constexpr double kRoundHandle = 0.55;  // of the way to the corner, for a curve that is nearly an arc
 
 double turn_between(const Vector2& a, const Vector2& b) {
   return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
@@ -54,7 +57,7 @@ void RunningFit::begin_segment(const Vector2& start, const std::optional<Vector2
 
 void RunningFit::add(const Vector2& point) {
   if ((point - last_).norm() < kMoved) return;
-  while (!try_to_reach(point)) finish_segment();
+  while (!try_to_reach(point)) finish_segment(point);
 }
 
 bool RunningFit::try_to_reach(const Vector2& point) {
@@ -104,12 +107,12 @@ void RunningFit::keep(const CubicBezier& curve, double length) {
   finished_.push_back({curve, start_along_, start_along_ + length});
 }
 
-void RunningFit::finish_segment() {
+void RunningFit::finish_segment(const Vector2& next) {
   if (finish_at_corner()) return;
   const double length = along_ - start_along_;
-  if (way_.knots.size() == 1) {
-    keep(current_, length);
-    begin_segment(last_, current_.end_direction());
+  const bool is_straight = way_.knots.size() == 1 || (way_.knots.size() == 2 && way_.knots[1].point == last_);
+  if (is_straight) {
+    finish_at_last(next);
     return;
   }
   // What follows shares the last part of the way with this segment, so that its direction has a ground.
@@ -126,6 +129,30 @@ void RunningFit::finish_segment() {
   current_ = rest;
   last_ = last;
   along_ = start_along_ + way_.length_to(last);
+}
+
+/// The segment lies beside one straight piece, and the next point is off it: the way turns at the last point.
+void RunningFit::finish_at_last(const Vector2& next) {
+  const double length = along_ - start_along_;
+  const Vector2 on = (next - last_).normalized();
+  const double turn = turn_between(current_.end_direction(), on);
+  if (turn > kCornerAngle && std::min(length, (next - last_).norm()) > kLeastReach) {
+    ++corners_;
+    keep(current_, length);
+    begin_segment(last_, {});
+    return;
+  }
+  // Cut off the angle by a short curve that goes from one direction into the other.
+  const double beside = std::min(kCutOff / std::max(std::sin(0.5 * turn), kLeastTurn),
+                                 0.4 * std::min(length, (next - last_).norm()));
+  const auto [kept, rest] = current_.split(1.0 - beside / length);
+  const Vector2 end = last_ + beside * on;
+  const Vector2& start = kept.points[3];
+  keep(kept, length - beside);
+  start_along_ += length - beside;
+  keep({{start, start + kRoundHandle * beside * kept.end_direction(), end - kRoundHandle * beside * on, end}},
+       2.0 * beside);
+  begin_segment(end, on);
 }
 
 bool RunningFit::finish_at_corner() {

@@ -49,8 +49,9 @@ class RunningFit {
   bool try_to_reach(const Vector2& point);
   bool is_near(const CubicBezier& cubic, const Vector2& end, double length) const;
   void begin_segment(const Vector2& start, const std::optional<Vector2>& direction);
-  void finish_segment();
+  void finish_segment(const Vector2& next);
   bool finish_at_corner();
+  void finish_at_last(const Vector2& next);
   void keep(const CubicBezier& curve, double length);
 
   std::vector<Finished> finished_;

@@ -61,18 +61,26 @@ FittedLine refitted(const PenStroke& stroke, const std::vector<Vector2>& line, d
   return fitted;
 }
 
-/// As it was drawn, without a refit; what the bound allows is lessened where the whole is not near enough.
-FittedLine as_drawn(const std::vector<Vector2>& line) {
+/// The segments as the pen makes them while it moves, not measured yet.
+std::vector<CubicBezier> drawn_segments(const std::vector<Vector2>& line, double aim) {
+  RunningFit running(line.front() / aim);
+  for (const Vector2& point : line) running.add(point / aim);
+  std::vector<CubicBezier> curve;
+  for (const RunningFit::Finished& segment : running.finished()) curve.push_back(segment.curve);
+  curve.push_back(running.current().curve);
+  for (CubicBezier& segment : curve)
+    for (Vector2& point : segment.points) point *= aim;
+  return curve;
+}
+
+/// As it was drawn; what the bound allows is lessened where the whole is not near enough. Without a result
+/// where that leads to `most` segments or more.
+FittedLine as_drawn(const std::vector<Vector2>& line, std::size_t most) {
   FittedLine fitted;
   double aim = 1.0;
   for (int attempt = 0; attempt < kMostAims && fitted.error > 1.0; ++attempt, aim *= kNextAim) {
-    RunningFit running(line.front() / aim);
-    for (const Vector2& point : line) running.add(point / aim);
-    fitted.curve.clear();
-    for (const RunningFit::Finished& segment : running.finished()) fitted.curve.push_back(segment.curve);
-    fitted.curve.push_back(running.current().curve);
-    for (CubicBezier& segment : fitted.curve)
-      for (Vector2& point : segment.points) point *= aim;
+    fitted.curve = drawn_segments(line, aim);
+    if (fitted.curve.size() >= most) return {};
     measure(fitted, line);
   }
   return fitted;
@@ -100,7 +108,12 @@ FittedLine straight(const std::vector<Vector2>& line) {
 FittedLine fit_line(const PenStroke& stroke, const std::vector<Vector2>& line, const FitSettings& settings) {
   if (line.size() == 1) return {{CubicBezier::line(line[0], line[0])}, 0.0};
   if (settings.method == FitMethod::Thesis) return by_thesis(line, settings.shared);
-  FittedLine fitted = settings.refit ? refitted(stroke, line, settings.error) : as_drawn(line);
+  FittedLine fitted = settings.refit ? refitted(stroke, line, settings.error) : FittedLine();
+  // Of a way that is all noise the pen's own segments may be fewer, and a pen that is lifted must not get
+  // more.
+  const std::size_t most =
+      fitted.error <= 1.0 ? fitted.curve.size() : std::numeric_limits<std::size_t>::max();
+  if (FittedLine drawn = as_drawn(line, most); drawn.error <= 1.0) fitted = std::move(drawn);
   return fitted.error <= 1.0 ? fitted : straight(line);
 }
 

@@ -1,0 +1,43 @@
+#include "sketch/feel/paper.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "base/near_names.h"
+#include "haptics/effects/texture_text.h"
+
+namespace icome::sketch {
+namespace {
+
+constexpr std::array<Paper, 4> kPapers = {{
+    {"paper", 0.0, 0.35, 0.30, "grain:0.00005,0.0006", "a sheet on a desk: fine grain"},
+    {"blackboard", 0.0, 0.60, 0.50, "grain:0.00012,0.0012", "chalk on slate: rough"},
+    {"canvas", 400.0, 0.50, 0.42, "bumps:0.0002,0.0012", "stretched cloth: soft, a weave"},
+    {"glass", 0.0, 0.10, 0.07, "", "hard and slippery"},
+}};
+
+}  // namespace
+
+std::span<const Paper> papers() { return kPapers; }
+
+base::Result<Paper> find_paper(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Paper& paper : kPapers) {
+    if (paper.name == name) return paper;
+    names.emplace_back(paper.name);
+  }
+  return base::fail(fmt::format("there is no paper '{}'{}", name, base::suggestion(name, std::move(names))));
+}
+
+haptics::Surface surface_of(const Paper& paper, bool eraser) {
+  const double more = eraser ? kEraserFriction : 1.0;
+  haptics::Surface surface;
+  surface.stiffness = paper.stiffness;
+  surface.static_friction = more * paper.static_friction;
+  surface.dynamic_friction = more * paper.dynamic_friction;
+  if (!paper.texture.empty()) surface.texture = haptics::make_texture(paper.texture).value();
+  return surface;
+}
+
+}  // namespace icome::sketch

@@ -1,0 +1,37 @@
+#pragma once
+#include <span>
+#include <string_view>
+
+#include "base/result.h"
+#include "haptics/effects/surface_force.h"
+
+namespace icome::sketch {
+
+/// What one draws on, as it is felt (thesis 4.5): how hard it is, how it holds the pen back, its grain.
+/// Values were chosen, to tell four materials apart on devices of 1 N and more; they are not measured on real
+/// ones.
+struct Paper {
+  std::string_view name;
+  double stiffness;        ///< N/m; 0: the hardest that the device renders well
+  double static_friction;  ///< Coulomb coefficient of a pen
+  double dynamic_friction;
+  std::string_view texture;  ///< haptic texture (docs/effects.md); empty: smooth
+  std::string_view about;    ///< a phrase for people
+};
+
+/// paper, blackboard, canvas and glass.
+std::span<const Paper> papers();
+/// The paper of that name; fails with the names that there are.
+base::Result<Paper> find_paper(std::string_view name);
+
+/// An eraser rubs on the paper so many times as hard as a pen (thesis 4.5.5).
+constexpr double kEraserFriction = 1.8;
+
+/// The paper as a surface that the servo renders, for a pen or an eraser.
+haptics::Surface surface_of(const Paper& paper, bool eraser);
+
+/// The force (N) with which a pen that presses so hard has full pressure. A plane is a spring with a damper,
+/// so no hand can press a line wider than that.
+constexpr double kFullPressure = 2.0;
+
+}  // namespace icome::sketch
