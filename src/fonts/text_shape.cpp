@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <clipper.hpp>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <vector>
 
 #include "base/utf8.h"
 #include "fonts/font_face.h"
+#include "fonts/outline_union.h"
 #include "geometry/sweep/outline.h"
 #include "geometry/sweep/profile.h"
 
@@ -17,7 +18,6 @@ namespace icome::fonts {
 namespace {
 
 using base::Vector2;
-using ClipperLib::cInt;
 
 base::Result<void> check_wish(const std::string& utf8, double height, double depth) {
   const auto good = [](double length) {
@@ -57,7 +57,7 @@ class TextSetting {
   }
 
   /// Rings of all letters, each line centred and the first one at y = 0.
-  ClipperLib::Paths take() { return std::move(all_); }
+  Rings take() { return std::move(all_); }
   std::size_t lines() const { return lines_; }
 
  private:
@@ -67,67 +67,41 @@ class TextSetting {
     const auto [found, is_new] = known_.try_emplace(glyph);
     if (is_new) found->second = face_.rings(glyph, tolerance_);
     for (const auto& ring : found->second) {
-      ClipperLib::Path path;
+      std::vector<Vector2>& set = line_.emplace_back();
       for (const Vector2& at : ring) {
-        path.emplace_back(cInt(at.x() + pen_), cInt(at.y()));
-        low_ = std::min(low_, path.back().X);
-        high_ = std::max(high_, path.back().X);
+        set.emplace_back(std::trunc(at.x() + pen_), std::trunc(at.y()));
+        low_ = std::min(low_, set.back().x());
+        high_ = std::max(high_, set.back().x());
       }
-      line_.push_back(std::move(path));
     }
     pen_ += face_.advance(glyph);
   }
 
   void end_line() {
-    const cInt middle = line_.empty() ? 0 : low_ + (high_ - low_) / 2;
-    const auto down = cInt(double(lines_) * face_.line_height());
-    for (ClipperLib::Path& path : line_) {
-      for (ClipperLib::IntPoint& point : path) point = {point.X - middle, point.Y - down};
-      all_.push_back(std::move(path));
+    const double middle = line_.empty() ? 0.0 : low_ + std::trunc((high_ - low_) / 2.0);
+    const double down = std::trunc(double(lines_) * face_.line_height());
+    for (std::vector<Vector2>& ring : line_) {
+      for (Vector2& at : ring) at -= Vector2(middle, down);
+      all_.push_back(std::move(ring));
     }
     ++lines_;
     line_.clear();
     pen_ = 0.0;
     last_ = 0;
-    low_ = std::numeric_limits<cInt>::max();
-    high_ = std::numeric_limits<cInt>::min();
+    low_ = kNone;
+    high_ = -kNone;
   }
 
   const FontFace& face_;
   const double tolerance_;
   std::map<std::uint32_t, LetterRings> known_;
-  ClipperLib::Paths all_, line_;
+  Rings all_, line_;
   std::size_t lines_ = 0;
   double pen_ = 0.0;
   std::uint32_t last_ = 0;
-  cInt low_ = std::numeric_limits<cInt>::max(), high_ = std::numeric_limits<cInt>::min();
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+  double low_ = kNone, high_ = -kNone;
 };
-
-std::vector<Vector2> ring_of(const ClipperLib::Path& path, bool counter_clockwise) {
-  std::vector<Vector2> ring;
-  ring.reserve(path.size());
-  for (const auto& point : path) ring.emplace_back(double(point.X), double(point.Y));
-  if (ClipperLib::Orientation(path) != counter_clockwise) std::reverse(ring.begin(), ring.end());
-  return ring;
-}
-
-/// The area that the rings cover, as pieces that do not overlap.
-std::vector<geometry::Outline> united(const ClipperLib::Paths& paths) {
-  ClipperLib::Clipper clipper;
-  clipper.StrictlySimple(true);
-  clipper.AddPaths(paths, ClipperLib::ptSubject, true);
-  ClipperLib::PolyTree tree;
-  clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
-  std::vector<geometry::Outline> pieces;
-  for (const ClipperLib::PolyNode* node = tree.GetFirst(); node; node = node->GetNext()) {
-    if (node->IsHole()) continue;
-    geometry::Outline piece{ring_of(node->Contour, true)};
-    for (const ClipperLib::PolyNode* hole : node->Childs)
-      piece.holes.push_back(ring_of(hole->Contour, false));
-    pieces.push_back(std::move(piece));
-  }
-  return pieces;
-}
 
 }  // namespace
 

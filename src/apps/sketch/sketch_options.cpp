@@ -3,12 +3,14 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/number_range.h"
+#include "apps/sketch/open_command.h"
 
 namespace icome::apps {
 namespace {
 
 constexpr const char* kSketchNotes =
     "Examples:\n"
+    "  icome sketch open drawing.svg                draw in a window\n"
     "  icome sketch fit strokes.csv --json          curves of a pen's strokes\n"
     "  icome sketch render strokes.scap page.png    how they look\n"
     "  icome sketch edit drawing.svg --apply edits.jsonl --out new.svg\n"
@@ -70,9 +72,48 @@ constexpr const char* kEditNotes =
     "JSON: {in, out (null when nothing was written), operations (how many were done), errors: [{line, op,\n"
     "message}], notes: [{line, op, text}], layers, strokes, segments, hash (equal for equal drawings)}.";
 
+constexpr const char* kModelNotes =
+    "Examples:\n"
+    "  icome sketch model drawing.svg drawing.wrl\n"
+    "  icome touch drawing.wrl --check              feel it\n"
+    "  icome sketch model strokes.csv strokes.stl --height 0.3 --height-by-width 0.5 --sheet 2\n"
+    "\n"
+    "Each line becomes a ridge in its colour, each fill a flatter one, on a sheet that feels as --paper "
+    "says;\n"
+    "layers are groups. The sheet lies in the plane z = 0 about the origin, y up. OUT: a design (icome "
+    "convert\n"
+    "--help tells its types).\n"
+    "\n"
+    "JSON: {in, out, objects, triangles, notes}.";
+
 constexpr const char* kListNotes =
     "JSON: {in, width_mm, height_mm, notes, layers: [{number, name, visible, locked, strokes: [{number,\n"
     "segments, length_mm, widest_mm, colour, opacity, fill (or null), closed, bounds: [x0,y0,x1,y1]}]}]}.";
+
+constexpr const char* kFeelNotes =
+    "Examples:\n"
+    "  icome sketch feel strokes.csv --paper canvas\n"
+    "  icome sketch feel signature.svc --device Touch --trace ticks.csv --out drawn.svg\n"
+    "\n"
+    "A simulated hand draws the strokes with a simulated device, as fast as they were made, on a plane that "
+    "the\n"
+    "servo renders as it would for a person: a spring and a damper, friction and a grain. The hand presses "
+    "so\n"
+    "that the force is 2 N at full pressure. What is drawn is where the pen was.\n"
+    "\n"
+    "Papers: paper, blackboard, canvas and glass. An eraser rubs 1.8 times as hard.\n"
+    "\n"
+    "Trace: stroke,t,x,y,z,force_x,force_y,force_z,pressure; s, m and N, z up from the paper, the stroke's "
+    "middle\n"
+    "at the origin and y up.\n"
+    "\n"
+    "JSON: {file, paper, eraser, device, rate_hz, notes, strokes: [{samples (of the recording), ticks, "
+    "drawn\n"
+    "(ticks on the paper), max_force_n, max_step_n (from one tick to the next), rubbing_n (mean force along "
+    "the\n"
+    "paper), work_j (of the device on the pen; never above 0 where it gives no energy), segments, "
+    "max_error_mm\n"
+    "(of the curve of what was drawn)}]}.";
 
 void add_fit_options(CLI::App& command, SketchFitOptions& fit) {
   command.add_option("--error", fit.error_mm, "How far a curve may be from the strokes (default 0.1)")
@@ -127,6 +168,7 @@ void add_sketch(CLI::App& app, SketchOptions& options) {
       *app.add_subcommand("sketch", "Draw with a pen: curves of strokes, pictures, edits (thesis 4.5)");
   sketch.footer(kSketchNotes);
   sketch.require_subcommand(1);
+  add_sketch_open(sketch, options);
   CLI::App& fit = add_task(sketch, "fit", "Fit curves to the strokes of a pen", kFitNotes, options);
   fit.add_option("STROKES", options.in, "A recording of a pen")->type_name("")->required();
   add_fit_options(fit, options.fit);
@@ -171,6 +213,40 @@ void add_sketch(CLI::App& app, SketchOptions& options) {
     if (apply->count() == 0) throw CLI::RequiredError("--apply");
     if (out->count() == 0) throw CLI::RequiredError("--out");
   });
+  CLI::App& feel =
+      add_task(sketch, "feel", "Draw strokes with a simulated pen that feels the paper", kFeelNotes, options);
+  feel.add_option("STROKES", options.in, "A recording of a pen")->type_name("")->required();
+  feel.add_option("--paper", options.paper, "What is drawn on (default paper)")->type_name("NAME");
+  feel.add_flag("--eraser", options.eraser, "An eraser in place of a pen");
+  feel.add_option("--device", options.device, "The profile of a device, such as Touch (icome devices)")
+      ->type_name("NAME");
+  feel.add_option("--rate", options.rate_hz, "Of the servo (default 1000)")
+      ->type_name("HZ")
+      ->check(number_range(500.0, 10000.0));
+  feel.add_option("--trace", options.trace, "Write every tick")->type_name("OUT.csv");
+  feel.add_option("--out", options.out, "Write what was drawn")->type_name("OUT.svg|png|pdf");
+  add_fit_options(feel, options.fit);
+  CLI::App& model =
+      add_task(sketch, "model", "Make a design of a drawing, to be touched: a ridge for each line",
+               kModelNotes, options);
+  model.add_option("IN", options.in, "An SVG file, or a recording of a pen")->type_name("")->required();
+  model.add_option("OUT", options.out, "The design")->type_name("")->required();
+  model.add_option("--height", options.height_mm, "Of every line (default 0.5)")
+      ->type_name("MM")
+      ->check(number_range(0.05, 100.0));
+  model
+      .add_option("--height-by-width", options.height_by_width,
+                  "More, for each mm of its greatest width (default 0)")
+      ->type_name("MM")
+      ->check(number_range(0.0, 10.0));
+  model.add_option("--sheet", options.sheet_mm, "Thickness of the paper below, 0 for none (default 1)")
+      ->type_name("MM")
+      ->check(number_range(0.0, 1000.0));
+  model
+      .add_option("--paper", options.paper,
+                  "How the sheet feels: paper, blackboard, canvas or glass (default paper)")
+      ->type_name("NAME");
+  add_fit_options(model, options.fit);
   CLI::App& list = add_task(sketch, "list", "List the layers and strokes of a drawing", kListNotes, options);
   list.add_option("IN", options.in, "An SVG file, or a recording of a pen")->type_name("")->required();
   add_fit_options(list, options.fit);

@@ -4,7 +4,7 @@
 
 #include "sketch/fit/stroke_fit.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): a library's
 class App;
 }
 
@@ -24,18 +24,27 @@ struct SketchFitOptions {
 
 /// The options of icome sketch.
 struct SketchOptions {
-  std::string task;  // "fit", "render", "edit" or "list"; empty: none was named
+  std::string task;  // "fit", "render", "edit", "list", "feel" or "open"; empty: none was named
   std::filesystem::path in;
   std::filesystem::path out;
   std::filesystem::path apply;  // edit: tools, one a line; "-": standard input
   SketchFitOptions fit;
+  std::string paper = "paper";       // feel, model: what is drawn on
+  bool eraser = false;               // feel: an eraser in place of a pen
+  std::string device;                // feel: a device's profile; empty: the simulated one
+  double rate_hz = 1000.0;           // feel: of the servo
+  std::filesystem::path trace;       // feel: what every tick did
+  double height_mm = 0.5;            // model: of every line
+  double height_by_width = 0.0;      // model: for its greatest width, beside it
+  double sheet_mm = 1.0;             // model: thickness of the paper, 0 for none
   std::string page = "auto";         // render: auto, paper or drawing
   int size = 1200;                   // render: pixels along the longer side
   std::string background = "white";  // render: a colour or "none"
   bool centre_lines = false;         // lines of SVG files as lines, not as outlines
   bool keep_going = false;
   bool help_tools = false;
-  std::string tool;  // with help_tools: only this one
+  std::string tool;   // with help_tools: only this one
+  std::string theme;  // open: "dark" or "light"; empty: as the main window has it
   bool json = false;
 };
 

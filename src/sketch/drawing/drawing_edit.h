@@ -81,6 +81,8 @@ class DrawingHistory {
   /// False where there is nothing to take back, or to do again.
   bool undo();
   bool redo();
+  bool can_undo() const { return !undo_.empty(); }
+  bool can_redo() const { return !redo_.empty(); }
 
  private:
   bool step(std::vector<DrawingEdit>& from, std::vector<DrawingEdit>& to);

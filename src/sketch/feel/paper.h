@@ -11,12 +11,12 @@ namespace icome::sketch {
 /// Values were chosen, to tell four materials apart on devices of 1 N and more; they are not measured on real
 /// ones.
 struct Paper {
-  std::string_view name;
-  double stiffness;        ///< N/m; 0: the hardest that the device renders well
-  double static_friction;  ///< Coulomb coefficient of a pen
-  double dynamic_friction;
-  std::string_view texture;  ///< haptic texture (docs/effects.md); empty: smooth
-  std::string_view about;    ///< a phrase for people
+  std::string_view name = {};
+  double stiffness = 0.0;        ///< N/m; 0: the hardest that the device renders well
+  double static_friction = 0.0;  ///< Coulomb coefficient of a pen
+  double dynamic_friction = 0.0;
+  std::string_view texture = {};  ///< haptic texture (docs/effects.md); empty: smooth
+  std::string_view about = {};    ///< a phrase for people
 };
 
 /// paper, blackboard, canvas and glass.

@@ -142,7 +142,7 @@ base::Result<void> EvemuRecording::read() {
   return {};
 }
 
-base::Vector2 place_of(const base::Vector2& reported, const PenAxes& axes) {
+base::Vector2 place_on_tablet(const base::Vector2& reported, const PenAxes& axes) {
   if (!axes.in_mm()) return kMetresOfMm * reported;
   return kMetresOfMm * base::Vector2((reported.x() - axes.x->least) / axes.x->resolution,
                                      (reported.y() - axes.y->least) / axes.y->resolution);
@@ -159,7 +159,7 @@ base::Result<StrokesRead> read_evemu_strokes(std::string_view text, const std::f
   StrokeCollector collector(name);
   for (const PenStroke& stroke : recording.strokes()) {
     for (const PenSample& sample : stroke) {
-      const auto added = collector.add({sample.time, place_of(sample.place, axes), sample.pressure});
+      const auto added = collector.add({sample.time, place_on_tablet(sample.place, axes), sample.pressure});
       if (!added) return base::fail(fmt::format("{}: {}", name, added.error().message));
     }
     collector.lift();

@@ -21,6 +21,8 @@ constexpr double kFirstAim = 0.96;       // of the error, for the path without t
 constexpr double kNextAim = 0.85;        // of the last aim, where the whole was not near enough
 constexpr int kMostAims = 5;
 constexpr double kErrorResolution = 0.01;  // of the error, by which what is stated may be too much
+constexpr double kMostAhead = 1.5;         // of the pen's way, on the curve
+constexpr double kAheadAtRest = 0.5;       // of the error, further
 constexpr double kBreaks = 1e-6;           // rad: directions that differ by more break
 
 /// The curve in the units of its path, and what it costs.
@@ -33,14 +35,14 @@ struct FittedLine {
 std::vector<Vector2> line_of(const PenStroke& stroke, double error) {
   std::vector<Vector2> line;
   for (const PenSample& sample : stroke) {
-    const Vector2 point = (sample.place - stroke.front().place) / error;
+    const Vector2 point = in_units_of(error, sample.place, stroke.front().place);
     if (line.empty() || point != line.back()) line.push_back(point);
   }
   return line;
 }
 
 void measure(FittedLine& fitted, const std::vector<Vector2>& line) {
-  fitted.error = greatest_distance(line, fitted.curve, kErrorResolution);
+  fitted.error = greatest_distance(line, fitted.curve, kErrorResolution) + kUnitRounding;
 }
 
 FittedLine refitted(const PenStroke& stroke, const std::vector<Vector2>& line, double error) {
@@ -101,12 +103,12 @@ FittedLine straight(const std::vector<Vector2>& line) {
   FittedLine fitted;
   for (std::size_t i = 1; i < line.size(); ++i)
     fitted.curve.push_back(CubicBezier::line(line[i - 1], line[i]));
-  fitted.error = 0.0;
+  fitted.error = kUnitRounding;
   return fitted;
 }
 
 FittedLine fit_line(const PenStroke& stroke, const std::vector<Vector2>& line, const FitSettings& settings) {
-  if (line.size() == 1) return {{CubicBezier::line(line[0], line[0])}, 0.0};
+  if (line.size() == 1) return {{CubicBezier::line(line[0], line[0])}, kUnitRounding};
   if (settings.method == FitMethod::Thesis) return by_thesis(line, settings.shared);
   FittedLine fitted = settings.refit ? refitted(stroke, line, settings.error) : FittedLine();
   // Of a way that is all noise the pen's own segments may be fewer, and a pen that is lifted must not get
@@ -128,15 +130,38 @@ std::size_t count_breaks(const std::vector<CubicBezier>& curve) {
   return breaks;
 }
 
-/// The place of the curve, not before `after`, that a sample belongs to: the nearest of this segment and the
-/// next two.
-double place_on_curve(const std::vector<CubicBezier>& curve, const Vector2& point, double after) {
-  const auto first = std::min(std::size_t(after), curve.size() - 1);
+/// Lengths along a curve, looked up between places that are close together.
+class CurveLengths {
+ public:
+  explicit CurveLengths(const std::vector<CubicBezier>& curve) {
+    for (const CubicBezier& segment : curve)
+      for (int k = 0; k < kLookedUp; ++k)
+        along_.push_back(along_.back() +
+                         (segment.at((k + 1.0) / kLookedUp) - segment.at(k / double(kLookedUp))).norm());
+  }
+
+  /// The place that lies a length further along, or the end.
+  double further(double place, double length) const {
+    const auto before = std::min(std::size_t(place * kLookedUp), along_.size() - 2);
+    const double part = place * kLookedUp - double(before);
+    const double wanted = along_[before] + part * (along_[before + 1] - along_[before]) + length;
+    const auto after = std::upper_bound(along_.begin(), along_.end(), wanted);
+    return std::max(place, double(after - along_.begin()) / kLookedUp);
+  }
+
+ private:
+  static constexpr int kLookedUp = 16;  // places of a segment
+
+  std::vector<double> along_ = {0.0};
+};
+
+/// The place of the curve from `after` to `last` that is nearest to a sample.
+double nearest_place(const std::vector<CubicBezier>& curve, const Vector2& point, double after, double last) {
   double place = after;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = first; i < std::min(first + 3, curve.size()); ++i) {
-    const double from = i == first ? after - double(first) : 0.0;
-    const auto near = geometry::nearest_on_curve(curve[i], point, from, 1.0);
+  for (auto i = std::min(std::size_t(after), curve.size() - 1); i < curve.size() && double(i) <= last; ++i) {
+    const double from = std::max(0.0, after - double(i));
+    const auto near = geometry::nearest_on_curve(curve[i], point, from, std::min(1.0, last - double(i)));
     if (near.distance_squared < least) {
       least = near.distance_squared;
       place = double(i) + near.t;
@@ -145,13 +170,20 @@ double place_on_curve(const std::vector<CubicBezier>& curve, const Vector2& poin
   return place;
 }
 
+/// Each sample belongs to the nearest place that lies about as far along the curve as the pen has moved: what
+/// it comes back to later may be nearer.
 std::vector<WidthSegment> widths_along(const PenStroke& stroke, const std::vector<CubicBezier>& curve,
                                        const FitSettings& settings) {
   WidthFit widths(settings.width_error);
+  const CurveLengths lengths(curve);
   double place = 0.0;
+  Vector2 before = Vector2::Zero();
   for (const PenSample& sample : stroke) {
-    place = place_on_curve(curve, (sample.place - stroke.front().place) / settings.error, place);
+    const Vector2 point = in_units_of(settings.error, sample.place, stroke.front().place);
+    const double last = lengths.further(place, kMostAhead * (point - before).norm() + kAheadAtRest);
+    place = nearest_place(curve, point, place, std::min(last, double(curve.size())));
     widths.add(place, settings.tip.width(sample.pressure));
+    before = point;
   }
   return widths.widths(double(curve.size()));
 }

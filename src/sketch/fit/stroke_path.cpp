@@ -8,6 +8,8 @@ namespace icome::sketch {
 namespace {
 
 constexpr double kAtRest = 1e-3;  // of the error
+constexpr double kLeastStretch =
+    0.25;  // of the path's length, that lies between its ends where a pen goes on
 
 /// The angle (rad, 0 to pi) between two directions of any length.
 double angle_between(const Vector2& a, const Vector2& b) {
@@ -21,15 +23,26 @@ void add_point(StrokePath& path, const Vector2& point, std::uint32_t sample) {
   path.samples.push_back(sample);
 }
 
-/// The turning of the path at a point, seen over `reach` on both sides; less where the path is shorter.
+/// The turning of the path at a point, seen over `reach` on both sides; less where the path is shorter. None
+/// where both sides are tangles of a pen that hardly moves.
 double turning_at(const StrokePath& path, std::size_t i, double reach) {
   const double here = path.along[i];
   const Vector2 before = path.at(std::max(0.0, here - reach));
   const Vector2 after = path.at(std::min(path.length(), here + reach));
+  const auto is_tangle = [&](const Vector2& end, double length) {
+    return (end - path.points[i]).norm() < kLeastStretch * length;
+  };
+  if (is_tangle(before, std::min(here, reach)) && is_tangle(after, std::min(path.length() - here, reach)))
+    return 0.0;
   return angle_between(path.points[i] - before, after - path.points[i]);
 }
 
 }  // namespace
+
+Vector2 in_units_of(double error, const Vector2& place, const Vector2& origin) {
+  constexpr double kSteps = 1048576.0;  // a power of two, so that only the rounding rounds
+  return ((place - origin) / error * kSteps).array().round().matrix() / kSteps;
+}
 
 Vector2 StrokePath::at(double distance) const {
   const auto after = std::upper_bound(along.begin(), along.end(), distance);
@@ -74,7 +87,7 @@ StrokePath path_of(const PenStroke& stroke, double error, double tolerance) {
   Vector2 last = Vector2::Zero();  // the last sample that moved
   std::uint32_t last_sample = 0;
   for (std::size_t i = 1; i < stroke.size(); ++i) {
-    const Vector2 point = (stroke[i].place - origin) / error;
+    const Vector2 point = in_units_of(error, stroke[i].place, origin);
     if ((point - last).norm() < kAtRest) continue;
     const bool passed = last_sample != path.samples.back();
     if (passed && !(tolerance > 0.0 && cone.reaches(point))) {

@@ -21,6 +21,12 @@ struct StrokePath {
   Vector2 at(double distance) const;
 };
 
+/// A place in units of `error` from an origin, rounded to a millionth of it: the same drawing in mm and in m
+/// then gives the same numbers, and not nearly the same ones, which long computations take apart.
+Vector2 in_units_of(double error, const Vector2& place, const Vector2& origin);
+/// By how much in_units_of() moves a place at most, in those units.
+inline constexpr double kUnitRounding = 7e-7;
+
 /// The path of a stroke: points leave the line from sample to sample by at most `tolerance` (in units of
 /// `error`; 0 keeps all). Samples that are nearer to the last one than a thousandth of the error are taken
 /// for a pen at rest.

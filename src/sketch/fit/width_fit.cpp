@@ -23,7 +23,7 @@ void WidthFit::add(double place, double width) {
   double way = place - from_;
   if (std::max(low_, (width - tolerance_ - from_width_) / way) >
       std::min(high_, (width + tolerance_ - from_width_) / way)) {
-    const double to_width = from_width_ + slope() * (last_ - from_);
+    const double to_width = std::max(0.0, from_width_ + slope() * (last_ - from_));
     finished_.push_back({from_, from_width_, last_, to_width});
     begin(last_, to_width);
     way = place - from_;

@@ -67,8 +67,6 @@ StrokePlace place_in_layer(const Drawing& drawing, StrokeId id) {
 }
 
 base::Result<DrawingEdit> plan_split(Drafting& drafting, const Arguments& arguments) {
-  const auto at = place_of(arguments, "at");
-  if (!at) return tl::unexpected(at.error());
   const auto picked = picked_stroke(drafting, arguments);
   if (!picked) return tl::unexpected(picked.error());
   const Stroke& stroke = *picked->stroke;
@@ -203,7 +201,7 @@ std::vector<SketchTool> shaping_tools() {
                     .title = "Split",
                     .group = "Shape",
                     .summary = "Cuts a stroke in two at a place; a closed one is opened there.",
-                    .parameters = with_stroke({})},
+                    .parameters = {place_parameter("at", "a place on it", true)}},
                    plan_split});
   tools.push_back({{.name = "join",
                     .title = "Join",

@@ -35,8 +35,8 @@ base::Result<const SketchTool*> find_tool(const std::string& name) {
 }  // namespace
 
 const std::vector<SketchTool>& sketch_tools() {
-  static const std::vector<SketchTool> tools = all_tools();
-  return tools;
+  static const std::vector<SketchTool> kTools = all_tools();
+  return kTools;
 }
 
 SketchRunner::SketchRunner(Drawing drawing) : history_(std::move(drawing)) {}

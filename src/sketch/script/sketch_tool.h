@@ -39,10 +39,17 @@ class SketchRunner {
 
   const Drawing& drawing() const { return history_.drawing(); }
   const Selection& selection() const { return selection_; }
+  /// Where new strokes go: the layer that was chosen, or no id where none was.
+  LayerId layer() const { return layer_; }
+  bool can_undo() const { return history_.can_undo(); }
+  bool can_redo() const { return history_.can_redo(); }
 
   /// Performs {"op": NAME, parameters...}, as icome edit does. Gives a note for people, mostly empty. A
   /// failed one changes nothing; the sentence begins with the tool's name where there is one.
   base::Result<std::string> perform(const interaction::Value& command);
+  /// Applies an edit that was made elsewhere, such as at the end of a drag, as one step to undo. Fails as
+  /// apply_edit().
+  base::Result<void> perform(const DrawingEdit& edit) { return history_.perform(edit); }
 
  private:
   base::Result<std::string> use(const SketchTool& tool, const interaction::Value::Fields& fields);

@@ -66,7 +66,12 @@ std::vector<Curve> curves_left(const Curve& curve, const std::vector<CurvePart>&
     if (part.to <= curve.end()) {
       left.push_back(part_of(curve, part.from, part.to));
     } else {
-      left.push_back(part_of(opened_at(curve, part.from), 0.0, part.to - std::floor(part.from)));
+      // Counted from its new start; what is left of the segment that was cut there is the last one, from 0
+      // to 1.
+      const double whole = std::floor(part.from);
+      const double beyond = part.to - curve.end() - whole;
+      const double stretched = beyond > 0.0 ? beyond / (part.from - whole) : beyond;
+      left.push_back(part_of(opened_at(curve, part.from), 0.0, curve.end() + stretched));
     }
   }
   return left;

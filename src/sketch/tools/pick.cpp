@@ -2,7 +2,32 @@
 
 #include <cmath>
 
+#include "sketch/tools/selection.h"
+
 namespace icome::sketch {
+namespace {
+
+constexpr int kPiecesOfSegment = 16;
+
+bool goes_around(const Curve& curve, const Vector2& point) {
+  if (!curve.bounds().contains(point)) return false;
+  std::vector<Vector2> line;
+  for (const CubicBezier& segment : curve.segments)
+    for (int i = 0; i < kPiecesOfSegment; ++i) line.push_back(segment.at(double(i) / kPiecesOfSegment));
+  line.push_back(curve.segments.back().points[3]);
+  return is_inside(point, line, InsideRule::NonZero);
+}
+
+}  // namespace
+
+std::optional<StrokeId> enclosing(const Drawing& drawing, const Vector2& point) {
+  for (auto layer = drawing.layers.rbegin(); layer != drawing.layers.rend(); ++layer) {
+    if (!can_change(*layer)) continue;
+    for (auto stroke = layer->strokes.rbegin(); stroke != layer->strokes.rend(); ++stroke)
+      if (goes_around((*stroke)->curve, point)) return (*stroke)->id;
+  }
+  return std::nullopt;
+}
 
 StrokeIndex::StrokeIndex(const Drawing& drawing) {
   std::vector<CubicBezier> curves;

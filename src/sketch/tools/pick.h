@@ -34,6 +34,9 @@ class StrokeIndex {
   geometry::CurveIndex index_;
 };
 
+/// The topmost stroke that goes around a point (non-zero rule), among those that tools may change.
+std::optional<StrokeId> enclosing(const Drawing& drawing, const Vector2& point);
+
 /// May tools change the strokes of this layer?
 inline bool can_change(const Layer& layer) { return layer.visible && !layer.locked; }
 

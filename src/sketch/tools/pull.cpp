@@ -90,11 +90,14 @@ void pull_as_thesis(Pulling& pulling, double t, const Vector2& by) {
   }
 }
 
-void pull_exactly(Pulling& pulling, double t, const Vector2& by) {
+/// Of a ring, one segment that is closed, both ends are one point with the share of both.
+void pull_exactly(Pulling& pulling, double t, const Vector2& by, bool is_ring) {
   const double u = 1.0 - t;
-  const double share[4] = {u * u * u, 3.0 * t * u * u, 3.0 * t * t * u, t * t * t};
+  double share[4] = {u * u * u, 3.0 * t * u * u, 3.0 * t * t * u, t * t * t};
+  if (is_ring) share[0] = share[3] = share[0] + share[3];
   double squares = 0.0;
   for (const double s : share) squares += s * s;
+  if (is_ring) squares -= share[3] * share[3];
   CubicBezier& curve = pulling.pulled();
   pulling.move_start(share[0] / squares * by);
   curve.points[1] += share[1] / squares * by;
@@ -116,15 +119,9 @@ Curve pulled(const Curve& curve, double place, const Vector2& by, PullRule rule)
   if (rule == PullRule::Thesis) {
     pull_as_thesis(pulling, t, by);
   } else {
-    pull_exactly(pulling, t, by);
+    pull_exactly(pulling, t, by, curve.closed && curve.segments.size() == 1);
   }
-  Curve result = pulling.finish();
-  if (curve.closed && curve.segments.size() == 1) {
-    // Its end stays its start.
-    const Vector2 joint = 0.5 * (result.segments[0].points[0] + result.segments[0].points[3]);
-    result.segments[0].points[0] = result.segments[0].points[3] = joint;
-  }
-  return result;
+  return pulling.finish();
 }
 
 }  // namespace icome::sketch

@@ -9,7 +9,16 @@
 namespace icome::sketch {
 namespace {
 
-constexpr int kSamplesOfASegment = 32;
+constexpr double kLeastSamples = 32.0;  // of a segment
+constexpr double kMostSamples = 4096.0;
+constexpr double kForBulges = 0.05;  // of the distance: what the samples may leave out
+
+/// So many that the curve leaves the line through them by little: n^2 of them by an n^2-th of its bend.
+int samples_of(const CubicBezier& segment, double distance) {
+  const double bend = std::max(segment.second_derivative(0.0).norm(), segment.second_derivative(1.0).norm());
+  const double enough = std::sqrt(bend / (8.0 * kForBulges * distance));
+  return int(std::ceil(std::clamp(enough, kLeastSamples, kMostSamples)));
+}
 
 /// The t of a segment at a length from its start, by halving.
 double t_at(const CubicBezier& segment, double length) {
@@ -62,14 +71,15 @@ Curve smoothed(const Curve& curve, double distance) {
   PenStroke samples;
   const double widest = curve.widest();
   for (std::size_t i = 0; i < curve.segments.size(); ++i) {
-    for (int k = i == 0 ? 0 : 1; k <= kSamplesOfASegment; ++k) {
-      const double t = double(k) / kSamplesOfASegment;
+    const int count = samples_of(curve.segments[i], distance);
+    for (int k = i == 0 ? 0 : 1; k <= count; ++k) {
+      const double t = double(k) / count;
       const double width = curve.width_at(double(i) + t);
       samples.push_back({0.0, curve.segments[i].at(t), widest > 0.0 ? width / widest : 0.0});
     }
   }
   FitSettings settings;
-  settings.error = distance;
+  settings.error = (1.0 - kForBulges) * distance;
   settings.width_error = std::max(0.02 * widest, 1e-9);
   settings.tip = {0.0, widest};
   Curve smooth = fit_stroke(samples, settings).curve;

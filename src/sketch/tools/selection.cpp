@@ -108,7 +108,11 @@ Selection joined(const Selection& a, const Selection& b) {
   Selection both = a;
   for (const auto& [stroke, points] : b) {
     const auto [known, is_new] = both.emplace(stroke, points);
-    if (is_new || known->second.size() != points.size()) continue;
+    if (is_new) continue;
+    if (known->second.size() != points.size()) {
+      known->second = points;  // the other was chosen before the stroke changed
+      continue;
+    }
     for (std::size_t i = 0; i < points.size(); ++i) known->second[i] = known->second[i] || points[i];
   }
   return both;

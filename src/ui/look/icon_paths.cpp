@@ -399,6 +399,95 @@ IconPaths scene() {
   return it;
 }
 
+/// A nib and its line.
+IconPaths pen() {
+  IconPaths it;
+  add_line(it.ink,
+           {{8.0, 14.0}, {6.6, 9.4}, {13.5, 2.5}, {17.5, 6.5}, {10.6, 13.4}, {6.0, 14.0}, {7.2, 12.8}});
+  add_line(it.wash, {{6.0, 14.0}, {6.6, 9.4}, {13.5, 2.5}, {17.5, 6.5}, {10.6, 13.4}}, true);
+  it.accent.moveTo(2.0, 17.5);
+  it.accent.cubicTo(6.0, 14.5, 9.0, 19.5, 13.5, 17.0);
+  return it;
+}
+
+IconPaths eraser() {
+  IconPaths it;
+  add_line(it.ink, {{2.5, 11.5}, {10.5, 3.5}, {16.5, 9.5}, {9.5, 16.5}, {7.5, 16.5}}, true);
+  add_line(it.wash, {{2.5, 11.5}, {6.5, 7.5}, {12.5, 13.5}, {9.5, 16.5}, {7.5, 16.5}}, true);
+  add_line(it.ink, {{6.5, 7.5}, {12.5, 13.5}});
+  add_line(it.accent, {{12.5, 16.5}, {18.0, 16.5}});
+  return it;
+}
+
+/// A line that is pulled aside at a point.
+IconPaths pull() {
+  IconPaths it;
+  it.ink.moveTo(2.0, 16.0);
+  it.ink.cubicTo(8.0, 16.0, 7.0, 7.5, 10.0, 7.5);
+  it.ink.cubicTo(13.0, 7.5, 12.0, 16.0, 18.0, 16.0);
+  add_oval(it.accent, {10.0, 7.5}, 1.8, 1.8);
+  add_line(it.accent, {{10.0, 5.0}, {10.0, 2.0}});
+  add_line(it.accent, {{8.0, 3.6}, {10.0, 1.8}, {12.0, 3.6}});
+  return it;
+}
+
+IconPaths lasso() {
+  IconPaths it;
+  add_oval(it.ink, {10.0, 7.5}, 7.5, 5.0);
+  add_oval(it.wash, {10.0, 7.5}, 7.5, 5.0);
+  it.accent.moveTo(6.0, 12.0);
+  it.accent.cubicTo(3.5, 13.0, 4.5, 16.0, 7.5, 15.0);
+  it.accent.cubicTo(9.5, 14.5, 8.5, 18.5, 5.0, 18.0);
+  return it;
+}
+
+/// A line that swells.
+IconPaths line_width() {
+  IconPaths it;
+  it.ink.moveTo(2.0, 10.0);
+  it.ink.cubicTo(6.0, 9.5, 6.5, 6.0, 10.0, 6.0);
+  it.ink.cubicTo(13.5, 6.0, 14.0, 9.5, 18.0, 10.0);
+  it.ink.cubicTo(14.0, 10.5, 13.5, 14.0, 10.0, 14.0);
+  it.ink.cubicTo(6.5, 14.0, 6.0, 10.5, 2.0, 10.0);
+  it.wash = it.ink;
+  add_line(it.accent, {{10.0, 4.0}, {10.0, 1.5}});
+  add_line(it.accent, {{10.0, 16.0}, {10.0, 18.5}});
+  return it;
+}
+
+/// Two ends that meet.
+IconPaths connect_ends() {
+  IconPaths it;
+  it.ink.moveTo(2.0, 15.5);
+  it.ink.cubicTo(2.5, 8.0, 4.5, 6.0, 8.2, 6.0);
+  it.ink.moveTo(18.0, 15.5);
+  it.ink.cubicTo(17.5, 8.0, 15.5, 6.0, 11.8, 6.0);
+  add_oval(it.accent, {10.0, 6.0}, 1.8, 1.8);
+  return it;
+}
+
+/// A drop over a shape that it fills.
+IconPaths fill() {
+  IconPaths it;
+  it.ink.moveTo(3.0, 10.5);
+  it.ink.cubicTo(4.0, 6.5, 16.0, 6.5, 17.0, 10.5);
+  it.ink.cubicTo(18.0, 18.5, 2.0, 18.5, 3.0, 10.5);
+  it.wash = it.ink;
+  it.accent.moveTo(10.0, 1.5);
+  it.accent.cubicTo(13.0, 5.5, 12.5, 7.5, 10.0, 7.5);
+  it.accent.cubicTo(7.5, 7.5, 7.0, 5.5, 10.0, 1.5);
+  return it;
+}
+
+/// An arrow up; mirrored, one down.
+IconPaths arrow_up(bool mirrored) {
+  IconPaths it;
+  add_line(it.ink, {{10.0, 16.5}, {10.0, 4.0}});
+  add_line(it.ink, {{5.0, 9.0}, {10.0, 4.0}, {15.0, 9.0}});
+  if (mirrored) it.ink = QTransform(1.0, 0.0, 0.0, -1.0, 0.0, 20.0).map(it.ink);
+  return it;
+}
+
 }  // namespace
 
 IconPaths paths_of(Icon which) {
@@ -471,6 +560,24 @@ IconPaths paths_of(Icon which) {
       return effect();
     case Icon::Scene:
       return scene();
+    case Icon::Pen:
+      return pen();
+    case Icon::Eraser:
+      return eraser();
+    case Icon::Pull:
+      return pull();
+    case Icon::Lasso:
+      return lasso();
+    case Icon::LineWidth:
+      return line_width();
+    case Icon::Connect:
+      return connect_ends();
+    case Icon::Fill:
+      return fill();
+    case Icon::Up:
+      return arrow_up(false);
+    case Icon::Down:
+      return arrow_up(true);
     case Icon::Shape:
     case Icon::Count:
       break;

@@ -42,6 +42,16 @@ enum class Icon : std::uint8_t {
   Inert,
   Effect,
   Scene,
+  // Tools for drawings.
+  Pen,
+  Eraser,
+  Pull,
+  Lasso,
+  LineWidth,
+  Connect,
+  Fill,
+  Up,
+  Down,
   Count,
 };
 

@@ -11,6 +11,7 @@
 #include "ui/actions/object_menu.h"
 #include "ui/look/icons.h"
 #include "ui/panels/object_look.h"
+#include "ui/sketch/sketch_window.h"
 #include "ui/window/about_box.h"
 #include "ui/window/command_palette.h"
 #include "ui/window/main_window.h"
@@ -89,6 +90,9 @@ QString millimetres(double metres) { return QString::number(1000.0 * metres, 'f'
 void MainWindow::make_menus() {
   files_.fill(*menuBar()->addMenu("&File"));
   QMenu* file = menuBar()->actions().front()->menu();
+  file->addSeparator();
+  add_action(*file, "file.new_drawing", "New &Drawing", {}, [] { open_sketch_window({}); });
+  add_action(*file, "file.open_drawing", "Open D&rawing\u2026", {}, [this] { choose_sketch(*this); });
   file->addSeparator();
   add_action(*file, "file.quit", "&Quit", QKeySequence("Ctrl+Q"), [this] { close(); });
   QMenu* edit = menuBar()->addMenu("&Edit");

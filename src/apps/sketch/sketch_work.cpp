@@ -1,0 +1,54 @@
+#include "apps/sketch/sketch_work.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "apps/status_line.h"
+#include "apps/terminal.h"
+
+namespace icome::apps {
+
+int sketch_failed(const base::Error& error) {
+  tell(error.message);
+  return kFailed;
+}
+
+double in_mm(double metres) { return std::round(metres * kMillimetresOfMetre * 1e9) / 1e9; }
+
+sketch::SvgLines svg_lines(const SketchOptions& options) {
+  return options.centre_lines ? sketch::SvgLines::CentreLines : sketch::SvgLines::Outlines;
+}
+
+sketch::PictureOptions picture_options(const SketchOptions& options) {
+  sketch::PictureOptions picture;
+  picture.longer_side = options.size;
+  if (options.background == "none") picture.background.reset();
+  if (options.page == "paper") picture.area = sketch::PictureArea::Paper;
+  if (options.page == "drawing") picture.area = sketch::PictureArea::Drawing;
+  return picture;
+}
+
+std::size_t count_segments(const sketch::Drawing& drawing) {
+  std::size_t segments = 0;
+  for (const sketch::Layer& layer : drawing.layers)
+    for (const sketch::StrokePointer& stroke : layer.strokes) segments += stroke->curve.segments.size();
+  return segments;
+}
+
+std::string how_many(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+base::Result<sketch::DrawingRead> read_for_sketch(const SketchOptions& options) {
+  if (options.in == "new") {
+    sketch::DrawingRead empty;
+    empty.drawing.layers.push_back({.id = empty.drawing.next_layer_id(), .name = "Layer 1", .strokes = {}});
+    return empty;
+  }
+  StatusLine status;
+  status.say("Reading " + options.in.string());
+  return sketch::read_drawing(options.in, options.fit.settings());
+}
+
+}  // namespace icome::apps

@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+
+#include "apps/sketch/sketch_options.h"
+#include "base/result.h"
+#include "sketch/files/drawing_files.h"
+
+namespace icome::apps {
+
+// What the commands of icome sketch have in common.
+
+constexpr double kMillimetresOfMetre = 1000.0;
+constexpr int kSketchInterrupted = 130;  // what shells report for Ctrl-C
+
+/// Tells why, and gives the exit code.
+int sketch_failed(const base::Error& error);
+
+/// A length in mm, without the digits that turning m into mm makes.
+double in_mm(double metres);
+
+sketch::SvgLines svg_lines(const SketchOptions& options);
+sketch::PictureOptions picture_options(const SketchOptions& options);
+
+std::size_t count_segments(const sketch::Drawing& drawing);
+/// "1 stroke", "2 strokes".
+std::string how_many(std::size_t count, const char* what);
+
+/// The drawing to begin with: an empty page for "new", an SVG file, or the curves of a recording.
+base::Result<sketch::DrawingRead> read_for_sketch(const SketchOptions& options);
+
+}  // namespace icome::apps

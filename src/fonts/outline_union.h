@@ -1,0 +1,17 @@
+#pragma once
+#include <vector>
+
+#include "geometry/sweep/outline.h"
+
+namespace icome::fonts {
+
+using geometry::Vector2;
+
+/// Closed lines of whole numbers: what is inside of one by the non-zero rule is covered.
+using Rings = std::vector<std::vector<Vector2>>;
+
+/// The area that rings cover together, as pieces that do not overlap. Corners are whole numbers of less than
+/// 2^30 either way, and remain so.
+std::vector<geometry::Outline> united(const Rings& rings);
+
+}  // namespace icome::fonts

@@ -1,0 +1,136 @@
+// Lasso and select by touching: a drag beside the selection chooses, one of its frame changes it.
+#include <QPainterPath>
+#include <cmath>
+#include <optional>
+
+#include "sketch/feel/resistance.h"
+#include "ui/sketch/canvas_tool.h"
+#include "ui/sketch/selection_frame.h"
+
+namespace icome::ui {
+namespace {
+
+constexpr double kTouchWithin = 5.0;  // pixels beside a line that touches it
+constexpr double kMmInAMetre = 1000.0;
+constexpr double kWayStep = 1.5;  // pixels between places of a way that are kept
+
+class SelectingTool final : public CanvasTool {
+ public:
+  SelectingTool(SketchBench& bench, bool lasso) : CanvasTool(bench), lasso_(lasso) {}
+
+  void press(const PenInput& input) override;
+  void drag(const PenInput& input) override;
+  void release(const PenInput& input) override;
+  void give_up() override;
+  void paint(QPainter& painter, const QRect& part) override;
+
+ private:
+  std::optional<SelectionFrame> frame() const {
+    return SelectionFrame::around(document().shown(), document().selection(), view());
+  }
+  void choose(bool add);
+  void paint_way(QPainter& painter) const;
+  sketch::Vector2 force() const;
+
+  bool lasso_;
+  std::optional<SelectionFrame::Grip> grip_;
+  std::vector<sketch::Vector2> way_;  // of the lasso or the touching; empty: nothing is chosen now
+  PenInput now_;
+};
+
+void SelectingTool::press(const PenInput& input) {
+  now_ = input;
+  const bool add = input.modifiers & Qt::ShiftModifier;
+  const auto around = frame();
+  if (around && !add) grip_ = around->grip(input.at, input.modifiers & Qt::ControlModifier);
+  if (!grip_) way_ = {input.place};
+  redraw_all();
+}
+
+void SelectingTool::drag(const PenInput& input) {
+  now_ = input;
+  if (grip_) {
+    const Eigen::Affine2d to = SelectionFrame::moved(*grip_, input.place);
+    document().try_out(sketch::transformed(document().drawing(), document().selection(), to));
+  } else if (!way_.empty() && (input.place - way_.back()).norm() > view().on_paper(kWayStep)) {
+    way_.push_back(input.place);
+  }
+  redraw_all();
+}
+
+void SelectingTool::release(const PenInput& input) {
+  if (grip_) {
+    grip_.reset();
+    document().keep();
+  } else if (!way_.empty()) {
+    choose(input.modifiers & Qt::ShiftModifier);
+  }
+  way_.clear();
+  redraw_all();
+}
+
+/// A lasso that was only clicked touches, so that a click always takes what it points at.
+void SelectingTool::choose(bool add) {
+  interaction::Value::List places;
+  for (const sketch::Vector2& place : way_) places.emplace_back(command_place(place));
+  interaction::Value::Fields fields = {{"way", std::move(places)}, {"add", add}};
+  const bool goes_round = lasso_ && way_.size() > 2;
+  if (!goes_round) fields.emplace_back("within", kMmInAMetre * view().on_paper(kTouchWithin));
+  document().perform(command(goes_round ? "lasso" : "touch", std::move(fields)));
+}
+
+void SelectingTool::give_up() {
+  grip_.reset();
+  way_.clear();
+  CanvasTool::give_up();
+  redraw_all();
+}
+
+/// The force that resists what is dragged (thesis 4.15 and its analogues).
+sketch::Vector2 SelectingTool::force() const {
+  using Part = SelectionFrame::Part;
+  const auto holding = sketch::holding_points(document().drawing(), document().selection());
+  const Eigen::Affine2d to = SelectionFrame::moved(*grip_, now_.place);
+  const Eigen::Matrix2d linear = to.linear();
+  if (grip_->part == Part::Inside) return sketch::move_force(to.translation(), holding.size());
+  sketch::Vector2 sum = sketch::Vector2::Zero();
+  const double angle = std::atan2(linear(1, 0), linear(0, 0));
+  if (grip_->part != Part::Corner) sum += sketch::turn_force(now_.place, grip_->about, angle, holding);
+  const double scaling = std::sqrt(linear.determinant());
+  if (grip_->part != Part::Knob) sum += sketch::scale_force(now_.place, grip_->about, scaling, holding);
+  return sum;
+}
+
+void SelectingTool::paint_way(QPainter& painter) const {
+  QPolygonF line;
+  for (const sketch::Vector2& place : way_) line << view().to_screen(place);
+  QPen pen = overlay_pen();
+  if (lasso_) pen.setStyle(Qt::DashLine);
+  painter.setPen(pen);
+  if (lasso_) {
+    QColor wash = pen.color();
+    wash.setAlphaF(0.08F);
+    painter.setBrush(wash);
+    painter.drawPolygon(line);
+    painter.setBrush(Qt::NoBrush);
+  } else {
+    painter.drawPolyline(line);
+  }
+}
+
+void SelectingTool::paint(QPainter& painter, const QRect& /*part*/) {
+  if (!way_.empty()) return paint_way(painter);
+  if (const auto around = frame()) around->paint(painter);
+  if (grip_ && look().force) paint_force(painter, now_.at, force(), view());
+}
+
+}  // namespace
+
+std::unique_ptr<CanvasTool> make_lasso_tool(SketchBench& bench) {
+  return std::make_unique<SelectingTool>(bench, true);
+}
+std::unique_ptr<CanvasTool> make_select_tool(SketchBench& bench) {
+  return std::make_unique<SelectingTool>(bench, false);
+}
+
+}  // namespace icome::ui

@@ -1,0 +1,45 @@
+#pragma once
+#include <QPainter>
+#include <optional>
+
+#include "sketch/tools/selection.h"
+#include "ui/sketch/paper_view.h"
+
+namespace icome::ui {
+
+/// The frame around what is chosen: dragged within, it moves; by a corner it scales about the opposite one,
+/// by the knob above it turns; with Ctrl a drag within it turns and scales about the middle.
+class SelectionFrame {
+ public:
+  enum class Part { Inside, Corner, Knob, Similar };
+
+  struct Grip {
+    Part part;
+    sketch::Vector2 from;   // where it was taken, m
+    sketch::Vector2 about;  // what stays in place
+  };
+
+  /// Around the chosen points; none where nothing is chosen.
+  static std::optional<SelectionFrame> around(const sketch::Drawing& drawing,
+                                              const sketch::Selection& selection, const PaperView& view);
+
+  /// What a press at a place of the canvas takes.
+  std::optional<Grip> grip(QPointF at, bool control) const;
+  /// What dragging it to a place (m) does to the chosen points.
+  static Eigen::Affine2d moved(const Grip& grip, const sketch::Vector2& to);
+
+  void paint(QPainter& painter) const;
+
+ private:
+  SelectionFrame(const sketch::Bounds2& box, const PaperView& view);
+  QPointF knob() const;
+
+  sketch::Bounds2 box_;  // m
+  PaperView view_;
+};
+
+/// Dots for the chosen points, and rings for those that hold them (figure 4.8 of the thesis).
+void paint_selection(QPainter& painter, const sketch::Drawing& drawing, const sketch::Selection& selection,
+                     const PaperView& view);
+
+}  // namespace icome::ui

@@ -1,0 +1,24 @@
+#pragma once
+#include "sketch/drawing/drawing.h"
+#include "sketch/fit/stroke_fit.h"
+#include "sketch/pen/pressure_curve.h"
+
+namespace icome::ui {
+
+/// How the pen draws and what is shown beside the drawing: what a person chooses in the window.
+struct SketchLook {
+  sketch::Colour colour = {0.11F, 0.13F, 0.16F};
+  sketch::Colour fill = {0.98F, 0.80F, 0.36F};  // of the fill tool
+  double opacity = 1.0;
+  sketch::PenTip tip = {.thinnest = 0.0003, .widest = 0.0015};
+  sketch::PressureCurve pressure;
+  sketch::CurveEnds ends = sketch::CurveEnds::Round;
+  double eraser_radius = 0.003;  // m
+  bool whole_strokes = false;    // the eraser takes all of what it touches
+  bool constant_width = false;   // for a mouse; else by its speed
+  bool predict = true;           // the running stroke a frame ahead, on the display only
+  bool onion = false;            // what was before the last change, faintly
+  bool force = false;            // an arrow for the force that resists the tool
+};
+
+}  // namespace icome::ui

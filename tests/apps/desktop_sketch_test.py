@@ -1,0 +1,91 @@
+"""The window of drawings as people use it: drawn in with the mouse, undone, saved, and closed."""
+import json
+import unittest
+
+from desktop_program import DesktopTest, wait_for
+from icome_program import run
+
+
+class SketchWindowTest(DesktopTest):
+    def open_page(self, *arguments):
+        """The window, with all of its paper in sight."""
+        desktop = self.start("sketch", "open", *arguments, "--theme", "light").open()
+        wait_for("white paper", lambda: desktop.whole().pixel(*self.middle(desktop)) == (255, 255, 255))
+        return desktop
+
+    @staticmethod
+    def middle(desktop):
+        """A place on the paper, left of the panels."""
+        _, _, width, height = desktop.place()
+        return round(0.4 * width), round(0.5 * height)
+
+    def draw(self, desktop, ways):
+        """Drags the mouse along ways, from the middle of the paper; pixels."""
+        left, top, _, _ = desktop.place()
+        x, y = self.middle(desktop)
+        for i, (dx, dy) in enumerate(ways):
+            desktop.screen.ask("mousemove", "--sync", left + x + dx, top + y + dy)
+            if i == 0:
+                desktop.screen.ask("mousedown", 1)
+        desktop.screen.ask("mouseup", 1)
+
+    @staticmethod
+    def ink(desktop):
+        """The share of dark pixels on the paper; those of the pointer, which is in the picture, count too."""
+        _, _, width, height = desktop.place()
+        box = (0.05 * width, 0.28 * height, 0.55 * width, 0.55 * height)
+        paper = desktop.whole().part(*map(round, box))
+        return paper.share(lambda red, green, blue: red < 120 and green < 120 and blue < 120)
+
+    def draw_and_see(self, desktop, ways):
+        """Gives the ink after it, which is more than before."""
+        before = self.ink(desktop)
+        self.draw(desktop, ways)
+        wait_for("the line", lambda: self.ink(desktop) > before + 0.0005)
+        desktop.wait_title(r"\*")
+        return self.ink(desktop)
+
+    def test_a_line_is_drawn_undone_and_saved(self):
+        desktop = self.open_page()
+        one = self.draw_and_see(desktop, [(-150, 0), (-50, 60), (50, -60), (150, 0)])
+        two = self.draw_and_see(desktop, [(-150, 100), (0, 120), (150, 100)])
+        self.keep(desktop, "sketch-two-lines")
+        desktop.key("ctrl+z")
+        wait_for("one line less", lambda: self.ink(desktop) < 0.5 * (one + two))
+        file = self.folder / "drawing.svg"
+        desktop.key("ctrl+s")
+        desktop.find_window("Save the Drawing As")
+        desktop.key("ctrl+a")
+        desktop.type(str(file))
+        desktop.key("Return")
+        desktop.wait_title(r"^drawing\.svg - ICOME")
+        listed = run("sketch", "list", file, "--json")
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        strokes = [it for layer in json.loads(listed.stdout)["layers"] for it in layer["strokes"]]
+        self.assertEqual(len(strokes), 1)
+        self.assertGreater(strokes[0]["length_mm"], 50)
+        desktop.quit()
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
+
+    def test_closing_asks_while_a_drawing_is_not_saved(self):
+        desktop = self.open_page()
+        self.draw_and_see(desktop, [(-150, 0), (0, 40), (150, 20)])
+        desktop.quit()
+        desktop.find_window("Save Changes")
+        desktop.key("Escape")
+        desktop.screen.ask("windowactivate", "--sync", desktop.window)
+        desktop.key("ctrl+z")
+        desktop.wait_title(r"^Untitled drawing - ICOME")
+        desktop.quit()
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
+
+    def test_a_file_that_is_not_there_is_told_above_the_paper(self):
+        desktop = self.open_page(self.folder / "missing.svg")
+        bad = (0xd1, 0x2f, 0x2a)  # the mark of an error in the light theme
+        wait_for("the message", lambda: desktop.whole().longest_column(bad) >= 16)
+        desktop.quit()
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
+
+
+if __name__ == "__main__":
+    unittest.main()
