@@ -56,8 +56,8 @@ struct StrongFit::Free {
       third.col(before) = -*arrives;
     else
       third.rightCols(2).setIdentity();
-    leaves_ = leaves;
-    arrives_ = arrives;
+    start_way = leaves;
+    end_way = arrives;
   }
 
   CubicBezier moved(CubicBezier curve, const Unknowns& by) const {
@@ -68,12 +68,12 @@ struct StrongFit::Free {
 
   /// Handles point where they must, not back.
   bool holds(const CubicBezier& curve) const {
-    const bool first = !leaves_ || leaves_->dot(curve.points[1] - curve.points[0]) >= 1e-9;
-    return first && (!arrives_ || arrives_->dot(curve.points[3] - curve.points[2]) >= 1e-9);
+    const bool first = !start_way || start_way->dot(curve.points[1] - curve.points[0]) >= 1e-9;
+    return first && (!end_way || end_way->dot(curve.points[3] - curve.points[2]) >= 1e-9);
   }
 
-  std::optional<Vector2> leaves_;
-  std::optional<Vector2> arrives_;
+  std::optional<Vector2> start_way;
+  std::optional<Vector2> end_way;
 };
 
 StrongFit::StrongFit(std::span<const Vector2> line) : line_(line) {
