@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sketch/fit/fit_error.h"
+#include "sketch/fit/running_fit.h"
 
 namespace icome::sketch {
 namespace {
@@ -158,6 +159,16 @@ std::vector<CubicBezier> smoothed(const std::vector<Vector2>& points, const std:
   return refit.spline().curve();
 }
 
+/// The segments that the pen would have made between two points of the path.
+std::vector<CubicBezier> segments_while_drawn(const StrokePath& path, std::size_t first, std::size_t last) {
+  RunningFit running(path.points[first]);
+  for (std::size_t i = first + 1; i <= last; ++i) running.add(path.points[i]);
+  std::vector<CubicBezier> segments;
+  for (const RunningFit::Finished& segment : running.finished()) segments.push_back(segment.curve);
+  segments.push_back(running.current().curve);
+  return segments;
+}
+
 }  // namespace
 
 std::vector<CubicFit> fewest_breaking_cubics(const StrokePath& path, std::size_t first, std::size_t last,
@@ -186,7 +197,8 @@ std::vector<CubicBezier> few_cubics(const StrokePath& path, std::size_t first, s
     const std::vector<CubicBezier> other = smoothed(points, breaking, within);
     if (best.empty() || (!other.empty() && other.size() < best.size())) best = other;
   }
-  // Sharp turns that no corner was made for may need cubics that break.
+  // Sharp turns that no corner was made for may need cubics that break, if the pen's own do not help.
+  if (best.empty()) best = smoothed(points, segments_while_drawn(path, first, last), within);
   return best.empty() ? breaking : best;
 }
 
