@@ -1,5 +1,7 @@
 #include "apps/sketch/sketch_command.h"
 
+#include <fmt/format.h>
+
 #include "apps/interrupt.h"
 #include "apps/sketch/feel_command.h"
 #include "apps/sketch/fit_command.h"
@@ -7,10 +9,14 @@
 #include "apps/sketch/open_command.h"
 #include "apps/sketch/page_commands.h"
 #include "apps/sketch/script_command.h"
+#include "apps/sketch/sketch_work.h"
 
 namespace icome::apps {
 
 int run_sketch(const SketchOptions& options) {
+  if (options.fit.thinnest_mm > options.fit.widest_mm)
+    return sketch_failed({fmt::format("--thinnest {} is above --widest {}: give a smaller one.",
+                                      options.fit.thinnest_mm, options.fit.widest_mm)});
   if (options.task == "open") return run_sketch_open(options);
   catch_interrupts();
   if (options.task == "fit") return run_sketch_fit(options);

@@ -59,7 +59,7 @@ constexpr const char* kEditNotes =
     "  icome sketch edit --help-tools erase         one of them\n"
     "\n"
     "edits.jsonl may be:\n"
-    "  {\"op\": \"draw\", \"way\": [[20, 20], [60, 50], [100, 20]], \"closed\": true, \"fill\": \"gold\"}\n"
+    "  {\"op\": \"draw\", \"way\": [[20, 20], [60, 50], [100, 20]], \"closed\": true, \"fill\": \"orange\"}\n"
     "  {\"op\": \"pull\", \"at\": [60, 50], \"to\": [60, 70]}\n"
     "  {\"op\": \"lasso\", \"way\": [[0, 0], [50, 0], [50, 90], [0, 90]]}\n"
     "  {\"op\": \"rotate\", \"degrees\": 10}\n"

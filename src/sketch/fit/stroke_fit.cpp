@@ -185,7 +185,14 @@ std::vector<WidthSegment> widths_along(const PenStroke& stroke, const std::vecto
     widths.add(place, settings.tip.width(sample.pressure));
     before = point;
   }
-  return widths.widths(double(curve.size()));
+  std::vector<WidthSegment> pieces = widths.widths(double(curve.size()));
+  // A line of least squares may pass what a pen can draw.
+  const auto [thin, wide] = std::minmax(settings.tip.thinnest, settings.tip.widest);
+  for (WidthSegment& piece : pieces) {
+    piece.from_width = std::clamp(piece.from_width, thin, wide);
+    piece.to_width = std::clamp(piece.to_width, thin, wide);
+  }
+  return pieces;
 }
 
 }  // namespace

@@ -12,17 +12,21 @@ namespace icome::sketch {
 namespace {
 
 /// The layer that a new stroke goes to: the chosen one, else the topmost that may be changed; with none of
-/// these a new one.
-LayerId layer_for_strokes(Drafting& drafting, DrawingEdit& edit) {
-  for (auto layer = drafting.drawing.layers.rbegin(); layer != drafting.drawing.layers.rend(); ++layer) {
-    if (!can_change(*layer)) continue;
-    if (layer->id == drafting.layer || !drafting.layer) return layer->id;
+/// these a new one. Fails where the chosen one is hidden or locked.
+base::Result<LayerId> layer_for_strokes(Drafting& drafting, DrawingEdit& edit) {
+  const std::vector<Layer>& layers = drafting.drawing.layers;
+  for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer) {
+    const bool chosen = layer->id == drafting.layer;
+    if (can_change(*layer) && (chosen || !drafting.layer)) return layer->id;
+    if (chosen)
+      return base::fail(fmt::format("layer \"{}\" is {}; choose another one", layer->name,
+                                    layer->locked ? "locked" : "hidden"));
   }
-  for (auto layer = drafting.drawing.layers.rbegin(); layer != drafting.drawing.layers.rend(); ++layer)
+  // The one that was chosen may have been deleted since.
+  for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer)
     if (can_change(*layer)) return layer->id;
   const LayerId made{drafting.next_id++};
-  const std::size_t place = drafting.drawing.layers.size();
-  edit.emplace_back(PutLayer{made, place, {.name = fmt::format("Layer {}", place + 1)}});
+  edit.emplace_back(PutLayer{made, layers.size(), {.name = fmt::format("Layer {}", layers.size() + 1)}});
   return made;
 }
 
@@ -75,10 +79,11 @@ base::Result<DrawingEdit> plan_draw(Drafting& drafting, const Arguments& argumen
   if (const double within = length_of(arguments, "snap"); within > 0.0 && !stroke->curve.closed)
     snap_ends(drafting.drawing, within, stroke->curve);
   DrawingEdit edit;
-  const LayerId layer = layer_for_strokes(drafting, edit);
+  const auto layer = layer_for_strokes(drafting, edit);
+  if (!layer) return tl::unexpected(layer.error());
   stroke->id = StrokeId{drafting.next_id++};
   drafting.note = fmt::format("stroke {}", stroke->id.value);
-  edit.emplace_back(PutStroke{layer, strokes_in(drafting.drawing, layer), std::move(stroke)});
+  edit.emplace_back(PutStroke{*layer, strokes_in(drafting.drawing, *layer), std::move(stroke)});
   return edit;
 }
 

@@ -36,7 +36,11 @@ base::Result<DrawingEdit> plan_change_layer(Drafting& drafting, const Arguments&
 base::Result<DrawingEdit> plan_move_layer(Drafting& drafting, const Arguments& arguments) {
   const auto layer = layer_named(drafting.drawing, arguments.text("layer"));
   if (!layer) return tl::unexpected(layer.error());
-  return edit_of(MoveLayer{(*layer)->id, std::size_t(arguments.count("place")) - 1});
+  const auto place = std::size_t(arguments.count("place"));
+  const std::size_t layers = drafting.drawing.layers.size();
+  if (place > layers)
+    return base::fail(fmt::format("'place' must be 1 to {}, the number of layers, not {}", layers, place));
+  return edit_of(MoveLayer{(*layer)->id, place - 1});
 }
 
 base::Result<DrawingEdit> plan_delete_layer(Drafting& drafting, const Arguments& arguments) {

@@ -40,7 +40,7 @@ std::vector<Parameter> stroke_parameters() {
            .kind = ParameterKind::Count,
            .meaning = "the number of the stroke, as icome sketch list tells it",
            .least = 1},
-          place_parameter("at", "a place on it, instead", false)};
+          place_parameter("at", "a place on it, or near the one that is meant", false)};
 }
 
 base::Result<Vector2> place_of(const Arguments& arguments, std::string_view name) {
@@ -74,19 +74,30 @@ base::Result<StrokePointer> stroke_numbered(const Drafting& drafting, std::uint6
 }
 
 base::Result<PickedStroke> picked_stroke(const Drafting& drafting, const Arguments& arguments) {
-  if (arguments.has("stroke") == arguments.has("at")) return base::fail("give 'stroke' or 'at'");
-  if (arguments.has("stroke")) {
+  if (!arguments.has("at")) {
+    if (!arguments.has("stroke")) return base::fail("give 'stroke', 'at' or both");
     auto stroke = stroke_numbered(drafting, std::uint64_t(arguments.count("stroke")));
     if (!stroke) return tl::unexpected(stroke.error());
     return PickedStroke{*stroke, 0.0, (*stroke)->curve.at(0.0)};
   }
   const auto at = place_of(arguments, "at");
   if (!at) return tl::unexpected(at.error());
-  const auto pick = StrokeIndex(drafting.drawing).nearest(*at, std::numeric_limits<double>::infinity());
-  if (!pick) return base::fail("there is no stroke that may be changed");
-  auto stroke = stroke_numbered(drafting, pick->stroke.value);
+  std::uint64_t number = 0;
+  if (arguments.has("stroke")) {
+    number = std::uint64_t(arguments.count("stroke"));
+  } else {
+    const auto pick = StrokeIndex(drafting.drawing).nearest(*at, kNearby);
+    if (!pick)
+      return base::fail(
+          fmt::format("no stroke that may be changed is within {:g} mm of 'at'", kNearby / kMillimetre));
+    number = pick->stroke.value;
+  }
+  auto stroke = stroke_numbered(drafting, number);
   if (!stroke) return tl::unexpected(stroke.error());
-  return PickedStroke{*stroke, pick->place, *at};
+  const geometry::CurveIndex index((*stroke)->curve.segments);
+  geometry::CurveIndex::Nearest found;
+  index.nearest(*at, std::numeric_limits<double>::infinity(), found);
+  return PickedStroke{*stroke, double(found.curve) + found.on_curve.t, *at};
 }
 
 DrawingEdit with_curve(const Stroke& stroke, Curve curve) {

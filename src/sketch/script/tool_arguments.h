@@ -9,6 +9,7 @@ using interaction::ParameterKind;
 
 constexpr double kMillimetre = 0.001;     // m
 constexpr double kFarthestOnPaper = 1e6;  // mm: places beyond are taken for mistakes
+constexpr double kNearby = 0.02;          // m, up to which a place means a stroke
 
 // Parameters that several tools have.
 Parameter place_parameter(const char* name, const char* meaning, bool required);
@@ -23,14 +24,14 @@ base::Result<Vector2> place_of(const Arguments& arguments, std::string_view name
 std::vector<Vector2> way_of(const Arguments& arguments, std::string_view name);
 double length_of(const Arguments& arguments, std::string_view name);  // m
 
-/// A stroke that may be changed, and where it was pointed at (its start if it was named).
+/// A stroke that may be changed, and where it was pointed at (its start if it was only named).
 struct PickedStroke {
   StrokePointer stroke;
   double place;
   Vector2 point;  // m, as given
 };
-/// The stroke of that number, or the nearest to the place "at". Fails where there is none, and where its
-/// layer is hidden or locked.
+/// The stroke of that number, at its place nearest to "at"; without a number the nearest stroke that is
+/// within kNearby. Fails where there is none, and where its layer is hidden or locked.
 base::Result<PickedStroke> picked_stroke(const Drafting& drafting, const Arguments& arguments);
 base::Result<StrokePointer> stroke_numbered(const Drafting& drafting, std::uint64_t number);
 

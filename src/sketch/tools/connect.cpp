@@ -1,8 +1,29 @@
 #include "sketch/tools/connect.h"
 
+#include <cmath>
+
 #include "sketch/tools/pick.h"
 
 namespace icome::sketch {
+namespace {
+
+constexpr double kSeamTurn = 0.6;  // rad, up to which ends that meet are meant to go on into each other
+
+/// Gives both ends of a closed curve one direction, where they nearly have it.
+void smooth_seam(Curve& ring) {
+  const Vector2 arrives = ring.segments.back().end_direction();
+  const Vector2 leaves = ring.segments.front().start_direction();
+  const double turn = std::atan2(arrives.x() * leaves.y() - arrives.y() * leaves.x(), arrives.dot(leaves));
+  const Vector2 both = arrives + leaves;
+  if (std::abs(turn) > kSeamTurn || both.isZero()) return;
+  const Vector2 way = both.normalized();
+  auto& first = ring.segments.front().points;
+  auto& last = ring.segments.back().points;
+  first[1] = first[0] + (first[1] - first[0]).norm() * way;
+  last[2] = last[3] - (last[3] - last[2]).norm() * way;
+}
+
+}  // namespace
 
 std::optional<StrokeEnd> nearest_end(const Drawing& drawing, const Vector2& point, double within,
                                      const std::optional<StrokeEnd>& except) {
@@ -50,6 +71,7 @@ Curve closed(const Curve& curve, double within) {
   const Vector2 middle = 0.5 * (start + end);
   Curve ring = end_moved(end_moved(curve, false, middle), true, middle);
   ring.closed = true;
+  smooth_seam(ring);
   return ring;
 }
 

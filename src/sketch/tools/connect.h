@@ -21,7 +21,8 @@ std::optional<StrokeEnd> nearest_end(const Drawing& drawing, const Vector2& poin
 Curve end_moved(const Curve& curve, bool last, const Vector2& to);
 
 /// The closed curve of an open one (thesis 4.5.5, connect curves): ends that are less than `within` (m) apart
-/// are brought together halfway between them; others are joined by a straight segment.
+/// are brought together halfway between them, and turn into each other where they nearly do; others are
+/// joined by a straight segment.
 Curve closed(const Curve& curve, double within);
 
 /// One curve of two: the end of the first and the start of the second are brought together halfway between

@@ -116,7 +116,7 @@ DrawingEdit erased(const Drawing& drawing, std::span<const Vector2> way, double 
         auto rest = std::make_shared<Stroke>(*stroke);
         rest->id = StrokeId{next_id++};
         rest->curve = std::move(left);
-        if (curve.closed) rest->fill.reset();  // it no longer encloses anything
+        if (curve.closed && parts.size() > 1) rest->fill.reset();  // no part has the whole area any more
         edit.emplace_back(PutStroke{layer.id, place++, std::move(rest)});
       }
     }
