@@ -25,7 +25,7 @@ std::vector<Vector2> chords_of(const std::vector<CubicBezier>& curve) {
   return places;
 }
 
-/// How far a cubic may be from its chords.
+/// The most by which a cubic may leave its chords.
 double bulge_of(const std::vector<CubicBezier>& curve) {
   double bend = 0.0;
   for (const CubicBezier& c : curve)

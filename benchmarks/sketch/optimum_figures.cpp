@@ -34,7 +34,7 @@ class Optimum {
     return count_.back();
   }
 
-  /// The same with one direction for both cubics of a joint, one of several there, between points where it
+  /// The fewest with one direction for both cubics of a joint, one of several there, between points where it
   /// may break. Zero: no such curve was found.
   std::size_t smooth(std::size_t first, std::size_t last);
 

@@ -28,7 +28,7 @@ class PeerRun {
   /// The cubics (m) of each request; nothing where that fails.
   std::optional<std::vector<std::vector<CubicBezier>>> curves(const std::vector<Request>& requests) const;
 
-  /// What it took to do something, and what came of it: a line that the peer printed.
+  /// The time that something took, and its result: a line that the peer printed.
   struct Line {
     double count;
     double us;

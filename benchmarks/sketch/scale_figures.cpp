@@ -12,7 +12,7 @@ constexpr double kThousand = 1000.0;
 constexpr double kBoundOfScale = 1e-4;  // m
 constexpr double kRounding = 1e-9;      // of the extent
 
-/// How curves of the same strokes in two sizes differ.
+/// The difference between curves of the same strokes in two sizes.
 struct ScaleDifference {
   std::size_t strokes = 0;
   std::size_t other_counts = 0;

@@ -34,7 +34,7 @@ std::vector<Bound> bounds() {
           {"1/500 of the longer side", [](const PenStroke& s) { return extent_of(s) / 500.0; }}};
 }
 
-/// What all judges say of curves that count.
+/// The verdicts of all judges on curves that count.
 struct Verdicts {
   double dense_above = -std::numeric_limits<double>::infinity();  // of the bound: dense over certified
   double dense_below = 0.0;

@@ -27,7 +27,7 @@ SketchSection optimum_figures(const std::vector<BenchStroke>& strokes, const Ske
 SketchSection sample_figures(const std::vector<BenchStroke>& strokes, const PeerRun* peers,
                              const SketchExtent& extent);
 SketchSection nearest_figures(const std::vector<BenchStroke>& strokes, const SketchExtent& extent);
-/// The same drawing a thousand times as large.
+/// Compares fits of a drawing and of one a thousand times as large.
 SketchSection scale_figures(const std::vector<BenchStroke>& strokes, const PeerRun* peers);
 /// Outlines and pictures.
 SketchSection picture_figures(const std::vector<BenchStroke>& strokes, const PeerRun* peers,

@@ -47,7 +47,7 @@ class Canvas {
  public:
   /// Sides in pixels, 1 ... 32767 each; scale > 0.
   Canvas(int width, int height, double scale);
-  /// The same, but where nothing is drawn the page is clear.
+  /// A page with pixels that is clear where nothing is drawn.
   static Canvas clear(int width, int height, double scale);
   /// A page without pixels, which svg() gives; sides in page units.
   static Canvas of_lines(double width, double height);
@@ -83,8 +83,8 @@ class Canvas {
   void clip(const Area& area);
   void unclip();
 
-  /// What is drawn until end_group(), only inside the area, becomes one picture, which is then laid on the
-  /// page with that opacity (0 to 1): things in a group do not show through each other.
+  /// All that is drawn until end_group(), only inside the area, becomes one picture, which is then laid on
+  /// the page with that opacity (0 to 1): things in a group do not show through each other.
   void begin_group(const Area& area);
   void end_group(double opacity);
 

@@ -38,7 +38,7 @@ function microseconds(work) {
   return 1000 * (performance.now() - begin);
 }
 
-/// What a program does that shows a fitted curve while it is drawn.
+/// The work of a program that shows a fitted curve while it is drawn.
 function print_refits(strokes, scale, tolerance) {
   for (const stroke of strokes.map((samples) => scaled(samples, scale))) {
     for (let count = 2; count <= stroke.length; ++count) {

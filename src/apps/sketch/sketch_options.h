@@ -10,7 +10,7 @@ class App;
 
 namespace icome::apps {
 
-/// How strokes become curves.
+/// Options by which strokes become curves.
 struct SketchFitOptions {
   double error_mm = 0.1;
   unsigned shared = 3;

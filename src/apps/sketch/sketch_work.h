@@ -7,7 +7,7 @@
 
 namespace icome::apps {
 
-// What the commands of icome sketch have in common.
+// Functions that the commands of icome sketch have in common.
 
 constexpr double kMillimetresOfMetre = 1000.0;
 constexpr int kSketchInterrupted = 130;  // what shells report for Ctrl-C

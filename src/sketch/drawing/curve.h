@@ -46,11 +46,12 @@ struct Curve {
 
 /// The curve from one place to a later one, places counted anew from its start, open.
 Curve part_of(const Curve& curve, double from, double to);
-/// The same curve run through from its end.
+/// The curve run through from its end.
 Curve reversed(const Curve& curve);
 /// The curve moved, turned and scaled; widths grow with the square root of the determinant.
 Curve transformed(const Curve& curve, const Eigen::Affine2d& to_other);
-/// The same curve with one segment more: the one at `place` is cut there. Places at joins change nothing.
+/// The curve with one segment more and its shape unchanged: the one at `place` is cut there. Places at joins
+/// change nothing.
 Curve cut_at(const Curve& curve, double place);
 
 }  // namespace icome::sketch

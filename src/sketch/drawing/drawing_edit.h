@@ -22,7 +22,7 @@ struct ReplaceStroke {
   StrokePointer stroke;
 };
 
-/// What a layer is beside its strokes.
+/// Name and state of a layer, without its strokes.
 struct LayerLook {
   std::string name;
   bool visible = true;
@@ -66,7 +66,7 @@ DrawingEdit edit_of(DrawingChange change);
 /// stroke without a segment or with numbers that are not finite.
 base::Result<DrawingEdit> apply_edit(Drawing& drawing, const DrawingEdit& edit);
 
-/// What was done to a drawing, so that it can be taken back and done again.
+/// A drawing with the edits that were done to it, so that they can be taken back and done again.
 class DrawingHistory {
  public:
   explicit DrawingHistory(Drawing drawing) : drawing_(std::move(drawing)) {}

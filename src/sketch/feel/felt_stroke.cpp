@@ -18,8 +18,8 @@ constexpr double kComingDown = 0.6;      // s: the limiter lets forces grow for 
 constexpr double kLiftingUp = 0.2;       // s
 constexpr double kLeastPressure = 0.02;  // a pen that presses less draws nothing
 
-/// What the hand aims for at each time. In the device's frame the paper is the plane z = 0, seen from +z,
-/// with the middle of the stroke at the origin and y up.
+/// The place that the hand aims for at each time. In the device's frame the paper is the plane z = 0, seen
+/// from +z, with the middle of the stroke at the origin and y up.
 class Aim {
  public:
   Aim(const PenStroke& stroke, const Vector2& middle, double hand_stiffness)

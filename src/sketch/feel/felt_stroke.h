@@ -23,7 +23,7 @@ struct PenTick {
   double pressure = 0.0;                           ///< 0 to 1; 0 above the paper
 };
 
-/// What came of a stroke that was drawn with a pen that pushes back.
+/// The outcome of a stroke that was drawn with a pen that pushes back.
 struct FeltStroke {
   std::vector<PenTick> ticks;
   PenStroke drawn;             ///< samples of where the pen was on the paper, one a tick

@@ -7,7 +7,7 @@
 
 namespace icome::sketch {
 
-/// What one draws on, as it is felt (thesis 4.5): how hard it is, how it holds the pen back, its grain.
+/// A surface to draw on, as it is felt (thesis 4.5): how hard it is, how it holds the pen back, its grain.
 /// Values were chosen, to tell four materials apart on devices of 1 N and more; they are not measured on real
 /// ones.
 struct Paper {

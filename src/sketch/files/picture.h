@@ -8,14 +8,14 @@
 
 namespace icome::sketch {
 
-/// How much of the plane a picture shows.
+/// The part of the plane that a picture shows.
 enum class PictureArea {
   PaperOrDrawing,  ///< the paper where everything lies on it, else the drawing
   Paper,
   Drawing,  ///< what is drawn, with a margin; the paper where nothing is
 };
 
-/// How a drawing is made a picture. Layers that are not visible are left out.
+/// Size, area and background of a picture of a drawing. Layers that are not visible are left out.
 struct PictureOptions {
   int longer_side = 1200;               ///< pixels, 1 to kLongestPictureSide; only for PNG
   std::optional<double> pixels_per_mm;  ///< instead of longer_side where it is set; 4 to 40
@@ -41,7 +41,7 @@ base::Result<void> write_picture(const Drawing& drawing, const PictureOptions& o
 /// most.
 void paint(charts::Canvas& canvas, const Stroke& stroke, const Eigen::Affine2d& page_from_paper,
            double tolerance);
-/// The same for all visible layers.
+/// Paints all visible layers.
 void paint(charts::Canvas& canvas, const Drawing& drawing, const Eigen::Affine2d& page_from_paper,
            double tolerance);
 

@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 4> kPenColumns = {"t", "x", "y", "pressur
 using PenColumns = std::array<std::size_t, kPenColumns.size()>;  // where each stands in a row
 using PenRow = std::array<double, kPenColumns.size()>;
 
-/// Where the columns stand, or the end of a sentence that begins with file and line.
+/// The places of the columns, or the end of a sentence that begins with file and line.
 base::Result<PenColumns> find_pen_columns(const std::vector<std::string_view>& header) {
   PenColumns columns{};
   for (std::size_t i = 0; i < kPenColumns.size(); ++i) {

@@ -8,7 +8,7 @@
 
 namespace icome::sketch {
 
-/// What a recording of a pen holds.
+/// The content of a recording of a pen.
 struct StrokesRead {
   std::vector<PenStroke> strokes;  ///< at least one, each of at least one sample, in the file's order
   std::vector<std::string> notes;  ///< what was taken otherwise than the file says, or skipped: a line each

@@ -107,7 +107,7 @@ bool TraceText::read_value(ChannelState& state) {
   else if (take('"'))
     state.mode = Mode::Second;
   skip_blanks();
-  // What is repeated or unknown stays, as do the buttons, which are true or false.
+  // Values that are repeated or unknown stay as they were, as do the buttons, which are true or false.
   if (take('*') || take('?') || take('T') || take('F')) return true;
   const std::string_view rest = text_.substr(at_);
   if (rest.starts_with('#')) {

@@ -13,7 +13,7 @@ struct CssColour {
 };
 
 /// "#rgb", "#rrggbb" (both also with a digit or two of alpha), "rgb(...)", "rgba(...)", "transparent" or one
-/// of the 147 names of SVG, without regard to case; nothing for other text.
+/// of the names of CSS, without regard to case; nothing for other text.
 std::optional<CssColour> parse_css_colour(std::string_view text);
 
 }  // namespace icome::sketch

@@ -18,7 +18,7 @@ std::optional<double> parse_svg_length(std::string_view text, double whole);
 /// sentence that begins with file and line.
 base::Result<Eigen::Affine2d> parse_svg_transform(std::string_view text);
 
-/// Where an <svg> or <symbol> shows what lies in it.
+/// The place in which an <svg> or <symbol> shows its content.
 struct SvgViewport {
   base::Vector2 size;  ///< of what is within, in its own units: percent are of it
   Eigen::Affine2d outer_from_inner = Eigen::Affine2d::Identity();

@@ -5,8 +5,9 @@
 
 namespace icome::sketch {
 
-// What the project writes into its SVG files beside what every program draws, so that a drawing comes back as
-// it was. Attributes are read by their namespace, whatever prefix stands for it; it is written as `icome`.
+// Names of the data that the project writes into its SVG files beside what every program draws, so that a
+// drawing comes back as it was. Attributes are read by their namespace, whatever prefix stands for it; it is
+// written as `icome`.
 //
 // On the root:
 //   icome:size     "w,h", mm of the paper

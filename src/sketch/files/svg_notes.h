@@ -7,8 +7,8 @@
 
 namespace icome::sketch {
 
-/// What a reader of SVG skips or takes otherwise: a line for each kind, with the first place and the count.
-/// Refers to the file.
+/// Collects all that a reader of SVG skips or takes otherwise: a line for each kind, with the first place and
+/// the count. Refers to the file.
 class SvgNotes {
  public:
   explicit SvgNotes(const XmlText& xml) : xml_(xml) {}

@@ -37,7 +37,7 @@ constexpr std::array<std::string_view, 14> kSilentElements = {
     "defs",           "title",          "desc",    "metadata", "symbol", "marker", "clipPath",
     "linearGradient", "radialGradient", "pattern", "mask",     "filter", "view",   "script"};
 
-/// What holds for the elements in one place of the file.
+/// The state that holds for the elements in one place of the file.
 struct SvgContext {
   Eigen::Affine2d root_from_user = Eigen::Affine2d::Identity();  ///< root: the units within the outer <svg>
   SvgStyle style;

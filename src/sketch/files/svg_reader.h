@@ -9,7 +9,7 @@
 
 namespace icome::sketch {
 
-/// What an SVG file holds.
+/// The content of an SVG file.
 struct DrawingRead {
   Drawing drawing;
   std::vector<std::string>
@@ -23,7 +23,7 @@ struct DrawingRead {
 /// path data, transforms and lengths that are faulty, and on files that draw without an end.
 base::Result<DrawingRead> read_svg_drawing(const std::filesystem::path& file);
 
-/// The same out of memory; `name` is for errors and notes.
+/// Reads SVG out of memory; `name` is for errors and notes.
 base::Result<DrawingRead> read_svg_text(std::string_view text, const std::string& name);
 
 }  // namespace icome::sketch

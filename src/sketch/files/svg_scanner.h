@@ -18,10 +18,10 @@ class SvgScanner {
     rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r\n\f,"), rest_.size()));
     return rest_.empty();
   }
-  /// What was not read yet.
+  /// The text that was not read yet.
   std::string_view rest() { return at_end() ? std::string_view() : rest_; }
 
-  /// What comes next up to a blank or comma, without moving: for messages.
+  /// The text that comes next, up to a blank or comma, without moving: for messages.
   std::string_view next_word() {
     const std::string_view begin = rest();
     return begin.substr(0, begin.find_first_of(" \t\r\n\f,"));

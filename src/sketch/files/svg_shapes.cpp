@@ -24,7 +24,7 @@ class ShapeLengths {
 
   double x(const char* name) { return length(name, whole_.x()).value_or(0.0); }
   double y(const char* name) { return length(name, whole_.y()).value_or(0.0); }
-  /// Of a radius, which percent of the whole's mean side may be.
+  /// A radius, which may be given in percent of the whole's mean side.
   double radius(const char* name) { return length(name, whole_.norm() / std::sqrt(2.0)).value_or(0.0); }
   /// Nothing where it is missing or "auto".
   std::optional<double> x_or_none(const char* name) { return length(name, whole_.x()); }

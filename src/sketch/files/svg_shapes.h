@@ -12,8 +12,8 @@ namespace icome::sketch {
 /// ellipse?
 bool is_svg_shape(std::string_view name);
 
-/// What such an element draws, in its user units. Percent are of `whole`. Fails with the end of a sentence
-/// that begins with file and line.
+/// The outline that such an element draws, in its user units. Percent are of `whole`. Fails with the end of a
+/// sentence that begins with file and line.
 base::Result<std::vector<SvgSubpath>> svg_shape_of(const XmlNode& node, const base::Vector2& whole);
 
 }  // namespace icome::sketch

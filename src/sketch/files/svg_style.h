@@ -8,7 +8,7 @@
 
 namespace icome::sketch {
 
-/// How a shape is painted, as far as drawings know it. Defaults are those of SVG.
+/// The paint of a shape, as far as drawings know it. Defaults are those of SVG.
 struct SvgStyle {
   std::optional<CssColour> fill = CssColour{};
   std::optional<CssColour> line;

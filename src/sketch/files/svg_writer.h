@@ -5,7 +5,7 @@
 
 namespace icome::sketch {
 
-/// How the lines of a drawing are put into a file.
+/// The two ways to put the lines of a drawing into a file.
 enum class SvgLines {
   Outlines,     ///< as their rims, filled: every program shows their true width
   CentreLines,  ///< as lines of their mean width: other programs can edit them

@@ -14,7 +14,7 @@ constexpr int kMostHalvingsOfAPiece = 24;
 constexpr int kMostSteps = 20;
 constexpr double kSameT = 1e-6;
 
-/// How far the part of a cubic between two places leaves its chord, run through evenly in t.
+/// The most by which the part of a cubic between two places leaves its chord, run through evenly in t.
 double bulge_of(const CubicBezier& cubic, double a, double b) {
   const double bend = std::max(cubic.second_derivative(a).norm(), cubic.second_derivative(b).norm());
   return (b - a) * (b - a) / 8.0 * bend;
@@ -36,7 +36,7 @@ class Comparison {
       greatest_ = std::numeric_limits<double>::infinity();
       return;
     }
-    // What is below the greatest so far needs no closer look.
+    // A piece below the greatest so far needs no closer look.
     if (ends + bulge <= greatest_ || bulge <= resolution_ || halvings == 0) {
       greatest_ = std::max(greatest_, ends + bulge);
       return;

@@ -12,7 +12,7 @@ struct PenSample {
   double pressure = 1.0;  ///< 0 (none) to 1
 };
 
-/// What a pen did between touching the paper and leaving it: one sample or more.
+/// The reports of a pen between touching the paper and leaving it: one sample or more.
 using PenStroke = std::vector<PenSample>;
 
 }  // namespace icome::sketch

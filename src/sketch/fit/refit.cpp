@@ -25,7 +25,7 @@ double error_of(const StrokePath& path, std::size_t first, std::size_t last, con
   return certified_distance(line, curve, kResolutionOfFit * within);
 }
 
-/// How far a cubic from `first` reaches: the last point of the path up to which it comes within the distance.
+/// The reach of a cubic from `first`: the last point of the path up to which it comes within the distance.
 std::size_t farthest_reach(const StrokePath& path, std::size_t first, std::size_t last, double within,
                            std::size_t guess, CubicFit& fit) {
   const auto fits = [&](std::size_t to) {

@@ -115,7 +115,7 @@ void RunningFit::finish_segment(const Vector2& next) {
     finish_at_last(next);
     return;
   }
-  // What follows shares the last part of the way with this segment, so that its direction has a ground.
+  // The next segment shares the last part of the way with this segment, so that its direction has a ground.
   const auto [kept, rest] = current_.split(kKeptPart);
   std::vector<Knot> knots;
   for (const Knot& knot : way_.knots)

@@ -172,7 +172,7 @@ double SmoothSpline::find_places(std::span<const Vector2> points, std::vector<Pl
 
 namespace {
 
-/// Where the points lie on segments whose lengths are these, if both are run through alike.
+/// The places of the points on segments whose lengths are these, if both are run through alike.
 template <typename Place>
 std::vector<Place> spread_evenly(std::span<const Vector2> points, const std::vector<double>& lengths) {
   std::vector<double> along(points.size(), 0.0);

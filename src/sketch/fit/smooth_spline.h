@@ -22,7 +22,7 @@ class SmoothSpline {
   };
 
   explicit SmoothSpline(std::vector<Joint> joints) : joints_(std::move(joints)) {}
-  /// Of cubics that follow one another: at a joint of two it has the mean of their directions.
+  /// Makes one of cubics that follow one another: at a joint of two it has the mean of their directions.
   static SmoothSpline through(std::span<const CubicBezier> segments);
 
   std::size_t segments() const { return joints_.size() - 1; }
@@ -48,7 +48,7 @@ class SmoothSpline {
 
   /// That distance for each segment, after the last bring_near().
   const std::vector<double>& errors() const { return errors_; }
-  /// How many of those points lie before each joint.
+  /// The number of those points before each joint.
   const std::vector<std::size_t>& points_before() const { return points_before_; }
 
  private:

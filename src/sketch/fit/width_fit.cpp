@@ -45,7 +45,7 @@ std::vector<WidthSegment> WidthFit::widths(double end) const {
   pieces.push_back({from_, from_width_, last_, to_width});
   if (last_ == from_) pieces.back().to = end;
   if (pieces.back().to < end) {
-    // What lies behind the last width is as wide as it.
+    // The rest, behind the last width, is as wide as it.
     pieces.push_back({last_, to_width, end, to_width});
   }
   return pieces;

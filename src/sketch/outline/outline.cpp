@@ -6,7 +6,7 @@
 
 #include "sketch/outline/rim.h"
 
-// How it works. A point is painted when some disc holds it: where distance to the centre minus radius, as a
+// The method. A point is painted when some disc holds it: where distance to the centre minus radius, as a
 // function of the place along the curve, has a least value below zero. Such a least value lies
 // - within a smooth part, where the point is on a spoke (from the centre to where the disc touches the rim),
 //   and not beyond where the next spokes cross it, since the value is greatest there, not least; or
@@ -32,7 +32,7 @@ Vector2 touching_point(const SweepingDisc& disc, double side) {
   return disc.centre + disc.radius * disc.touching(side);
 }
 
-/// How a run of sweeping discs is closed at one of its ends.
+/// The closing of a run of sweeping discs at one of its ends.
 enum class RunEnd { Round, Flat, Open };
 
 /// Makes the loops of one curve from its parts.

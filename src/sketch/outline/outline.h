@@ -10,10 +10,10 @@ struct OutlinePiece {
   std::vector<CubicBezier> rim;  ///< m
 };
 
-/// What a pen of the curve's width paints: all points within width / 2 of a point of the curve. Flat ends
-/// stop at a line across the curve where it is first or last seen: through its point there or, where they lie
-/// farther out, the points in which the sides touch the last disc (those of a line that becomes wider or
-/// narrower touch it aslant).
+/// The area that a pen of the curve's width paints: all points within width / 2 of a point of the curve. Flat
+/// ends stop at a line across the curve where it is first or last seen: through its point there or, where
+/// they lie farther out, the points in which the sides touch the last disc (those of a line that becomes
+/// wider or narrower touch it aslant).
 ///
 /// All pieces filled as one path with the non-zero rule give that region, nowhere farther off than
 /// `tolerance` (m, > 0). Loops may cross themselves and each other, but no point is wound around a negative

@@ -162,7 +162,7 @@ struct Spoke {
   Vector2 centre, tip, touching;
 };
 
-/// Where two segments, each from `.centre` to `.tip`, cross.
+/// The point in which two segments, each from `.centre` to `.tip`, cross.
 std::optional<Vector2> crossing_of(const Spoke& a, const Spoke& b) {
   const Vector2 along_a = a.tip - a.centre;
   const Vector2 along_b = b.tip - b.centre;
@@ -227,7 +227,8 @@ class SideTracer {
     });
   }
 
-  /// Where the rim begins to run back or forward again, if it does so between two of the samples.
+  /// The place at which the rim begins to run back or forward again, if it does so between two of the
+  /// samples.
   std::optional<double> turning_place(const RimSamples& samples) const {
     const auto unsure = [](const RimSample& sample) { return std::abs(sample.speed) <= kStill; };
     for (std::size_t k = 1; k < samples.size(); ++k) {

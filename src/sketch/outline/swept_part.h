@@ -5,7 +5,7 @@
 
 namespace icome::sketch {
 
-/// What the disc that runs along a part of a curve does there.
+/// The motion of the disc that runs along a part of a curve.
 enum class DiscMotion {
   Sweeps,   ///< it leaves a mark on both sides: its radius changes less than its centre moves
   Grows,    ///< it swallows every disc before it
@@ -28,8 +28,8 @@ struct SweepingDisc {
   double lean_sine() const;
   /// Positive where the rim runs forward, negative where the curve turns so tightly that it runs back.
   double rim_speed(double side) const;
-  /// How far from the centre the next spokes, the ways to the touching points, cross this one (m). Only where
-  /// the rim does not run forward: it is not beyond the radius there.
+  /// The distance from the centre at which the next spokes, the ways to the touching points, cross this one
+  /// (m). Only where the rim does not run forward: it is not beyond the radius there.
   double crossing(double side) const;
 };
 

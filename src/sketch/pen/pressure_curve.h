@@ -2,8 +2,8 @@
 
 namespace icome::sketch {
 
-/// How hard a pen draws for how hard it is pressed: a curve that never goes back, through three points. A
-/// plain value; all numbers are from 0 to 1.
+/// Gives the pressure that a pen draws with for the one that it is pressed with: a curve that never goes
+/// back, through three points. A plain value; all numbers are from 0 to 1.
 struct PressureCurve {
   double lightest = 0.0;  ///< for no pressure
   double middle = 0.5;    ///< for half of it; between the two others

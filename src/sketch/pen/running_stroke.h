@@ -16,14 +16,14 @@ class RunningStroke {
   void add(const PenSample& sample);
 
   const PenStroke& samples() const { return samples_; }
-  /// How many segments will not change any more.
+  /// The number of segments that will not change any more.
   std::size_t finished() const { return fit_.finished().size(); }
   /// One of them with its width. Takes as long as the segment has samples.
   Curve segment(std::size_t number) const { return with_width(fit_.finished()[number]); }
   /// The segment that ends at the last sample, likewise.
   Curve current() const { return with_width(fit_.current()); }
 
-  /// Where the pen will be in `ahead` s if it goes on as it did lately; where it is, if that cannot be told.
+  /// The place of the pen in `ahead` s if it goes on as it did lately; where it is, if that cannot be told.
   Vector2 predicted(double ahead) const;
 
  private:

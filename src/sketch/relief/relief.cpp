@@ -138,7 +138,7 @@ class ReliefMaker {
     add_ridge(stroke, rings, height, stroke.colour, "stroke", group);
   }
 
-  /// What is drawn later lies a little higher, so that no two tops are in one plane.
+  /// A factor that lets later strokes lie a little higher, so that no two tops are in one plane.
   double rise() const { return 1.0 + kRise * double(ridges_); }
 
   void add_ridge(const Stroke& stroke, const fonts::Rings& rings, double height, const Colour& colour,

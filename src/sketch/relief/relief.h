@@ -6,7 +6,7 @@
 
 namespace icome::sketch {
 
-/// How a drawing becomes something that can be touched.
+/// Heights and feel of a drawing that is to be touched.
 struct ReliefSettings {
   double height = 0.0005;        ///< m, of every line; 0.00005 to 0.1
   double height_by_width = 0.0;  ///< m for a metre of the line's greatest width, beside it; 0 to 10

@@ -39,7 +39,7 @@ class SketchRunner {
 
   const Drawing& drawing() const { return history_.drawing(); }
   const Selection& selection() const { return selection_; }
-  /// Where new strokes go: the layer that was chosen, or no id where none was.
+  /// The layer that new strokes go to: the one that was chosen, or no id where none was.
   LayerId layer() const { return layer_; }
   bool can_undo() const { return history_.can_undo(); }
   bool can_redo() const { return history_.can_redo(); }

@@ -115,7 +115,7 @@ base::Result<std::vector<StrokePointer>> meant_strokes(const Drafting& drafting,
     return strokes;
   }
   for (const auto& [id, points] : drafting.selection) {
-    // What has been hidden, locked or deleted since it was chosen is left alone.
+    // Strokes that were hidden, locked or deleted since they were chosen are left alone.
     if (auto stroke = stroke_numbered(drafting, id.value)) strokes.push_back(*stroke);
   }
   if (strokes.empty()) return base::fail("nothing is selected; give 'stroke' or 'at', or select first");

@@ -35,7 +35,7 @@ struct PickedStroke {
 base::Result<PickedStroke> picked_stroke(const Drafting& drafting, const Arguments& arguments);
 base::Result<StrokePointer> stroke_numbered(const Drafting& drafting, std::uint64_t number);
 
-/// The same stroke with another curve, as an edit.
+/// The edit that gives a stroke another curve.
 DrawingEdit with_curve(const Stroke& stroke, Curve curve);
 
 /// The strokes that a look is given to: the one that is named, else all that are chosen.

@@ -15,9 +15,9 @@ struct CurvePart {
 /// to a thousandth of it. Of a closed curve the part over its start is the last, and its `to` beyond end().
 std::vector<CurvePart> parts_beside(const Curve& curve, std::span<const Vector2> line, double distance);
 
-/// What an eraser of this radius (m) takes away on its way: curve and width segments are cut where it passes
-/// over the middle of the line, and the rest stays as it is, as strokes of their own; or the whole strokes
-/// that it touches. Layers that are hidden or locked keep all. Parts get ids from `next_id` on.
+/// The edit that an eraser of this radius (m) makes on its way: curve and width segments are cut where it
+/// passes over the middle of the line, and the rest stays as it is, as strokes of their own; or the whole
+/// strokes that it touches. Layers that are hidden or locked keep all. Parts get ids from `next_id` on.
 DrawingEdit erased(const Drawing& drawing, std::span<const Vector2> way, double radius, bool whole_strokes,
                    std::uint64_t& next_id);
 

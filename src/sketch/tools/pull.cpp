@@ -90,7 +90,7 @@ void pull_as_thesis(Pulling& pulling, double t, const Vector2& by) {
   }
 }
 
-/// Of a ring, one segment that is closed, both ends are one point with the share of both.
+/// The shares of a ring, one segment that is closed: both ends are one point with the share of both.
 void pull_exactly(Pulling& pulling, double t, const Vector2& by, bool is_ring) {
   const double u = 1.0 - t;
   double share[4] = {u * u * u, 3.0 * t * u * u, 3.0 * t * t * u, t * t * t};

@@ -13,7 +13,7 @@ namespace icome::sketch {
 /// curve the last is the first.
 using Selection = std::map<StrokeId, std::vector<bool>>;
 
-/// What counts as inside of a lasso that crosses itself.
+/// The rule for what is inside of a lasso that crosses itself.
 enum class InsideRule : std::uint8_t {
   EvenOdd,  ///< what one leaves by an odd number of its lines
   NonZero,  ///< what it goes around

@@ -20,7 +20,7 @@ struct PenInput {
   Qt::KeyboardModifiers modifiers = {};
 };
 
-/// What tools work on; all outlives them.
+/// The things that tools work on; all outlive them.
 struct SketchBench {
   SketchDocument& document;
   const SketchLook& look;
@@ -65,7 +65,7 @@ std::unique_ptr<CanvasTool> make_width_tool(SketchBench& bench);
 std::unique_ptr<CanvasTool> make_connect_tool(SketchBench& bench);
 std::unique_ptr<CanvasTool> make_fill_tool(SketchBench& bench);
 
-/// How far beside a line a pen may be to take it, pixels.
+/// The distance from a line at which a pen still takes it, pixels.
 inline constexpr double kTakenWithin = 12.0;
 
 /// The line in which overlays are drawn, in the theme's accent: on white paper in either theme.

@@ -56,7 +56,7 @@ class CurveTool : public CanvasTool {
  protected:
   virtual sketch::Curve change(const sketch::Curve& curve, const sketch::Pick& pick, const PenInput& from,
                                const PenInput& now) = 0;
-  /// Where on the canvas the place is while it is dragged.
+  /// The place on the canvas while it is dragged.
   virtual QPointF shown_at(const sketch::Pick& pick, const PenInput& now) const = 0;
   virtual sketch::Vector2 force(const sketch::Vector2& pull) const = 0;
 

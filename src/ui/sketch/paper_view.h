@@ -8,7 +8,7 @@
 
 namespace icome::ui {
 
-/// What part of a drawing is seen, how large and how it is turned. Screen lengths are device-independent
+/// The part of a drawing that is seen, its size and its turn. Screen lengths are device-independent
 /// pixels; those of the paper m, or mm where a QTransform has them, which paths are kept in. A plain value.
 class PaperView {
  public:
@@ -23,7 +23,7 @@ class PaperView {
 
   /// Shows paper of this size (m) whole, upright, in the middle of a canvas.
   void fit(const base::Vector2& paper, QSize canvas);
-  /// What is under the pointer stays there.
+  /// The place under the pointer stays there.
   void zoom(QPointF about, double factor);
   void turn(QPointF about, double degrees);
   void shift(QPointF by) { middle_ += by; }

@@ -26,7 +26,7 @@ PenPanel::PenPanel(SketchDocument& document, SketchLook& look, QWidget* parent)
   column->addStretch();
 }
 
-/// What is chosen for the pen is given to what is selected, as one step to undo.
+/// Gives the look that is chosen for the pen to what is selected, as one step to undo.
 void PenPanel::give_selected(const SketchDocument::Command& command) {
   if (!document_.selection().empty()) document_.perform(command);
   changed_();

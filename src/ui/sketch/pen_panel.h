@@ -13,7 +13,7 @@
 
 namespace icome::ui {
 
-/// What the pen draws: colour, opacity, width, pressure and ends, and what the eraser takes. Colour, opacity
+/// Choices for the pen: colour, opacity, width, pressure and ends, and what the eraser takes. Colour, opacity
 /// and ends go to the strokes that are selected, too. Document and look outlive it.
 class PenPanel final : public QWidget {
  public:

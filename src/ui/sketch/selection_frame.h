@@ -23,9 +23,9 @@ class SelectionFrame {
   static std::optional<SelectionFrame> around(const sketch::Drawing& drawing,
                                               const sketch::Selection& selection, const PaperView& view);
 
-  /// What a press at a place of the canvas takes.
+  /// The part of the frame that a press at a place of the canvas takes.
   std::optional<Grip> grip(QPointF at, bool control) const;
-  /// What dragging it to a place (m) does to the chosen points.
+  /// The transform of the chosen points when it is dragged to a place (m).
   static Eigen::Affine2d moved(const Grip& grip, const sketch::Vector2& to);
 
   void paint(QPainter& painter) const;

@@ -85,7 +85,7 @@ void SketchCanvas::choose(SketchToolKind tool) {
 
 void SketchCanvas::show_cursor() { setCursor(space_ ? Qt::OpenHandCursor : cursor_of(tool_)); }
 
-// What is seen.
+// Painting.
 
 void SketchCanvas::refresh() {
   onion_.clear();

@@ -24,7 +24,7 @@ class SketchDocument {
   const sketch::Drawing& shown() const { return tried_ ? *tried_ : drawing(); }
   const sketch::Drawing& before() const { return tried_ ? drawing() : before_; }
   const sketch::Selection& selection() const { return runner_->selection(); }
-  /// Where the next stroke goes if it may; the topmost layer where none was chosen.
+  /// The layer that the next stroke goes to if it may; the topmost layer where none was chosen.
   sketch::LayerId layer() const;
   /// Finds strokes of the drawing as it is.
   const sketch::StrokeIndex& index();
@@ -42,7 +42,7 @@ class SketchDocument {
   void try_more(const sketch::DrawingEdit& edit);
   /// Does what was tried out, as one step to undo; nothing where nothing was.
   void keep();
-  /// What was tried out is seen no more.
+  /// Ends showing what was tried out.
   void give_up();
 
   const std::filesystem::path& file() const { return file_; }

@@ -5,7 +5,7 @@
 
 namespace icome::ui {
 
-/// How the pen draws and what is shown beside the drawing: what a person chooses in the window.
+/// A person's choices in the window: the look of the pen's lines, and what is shown beside the drawing.
 struct SketchLook {
   sketch::Colour colour = {0.11F, 0.13F, 0.16F};
   sketch::Colour fill = {0.98F, 0.80F, 0.36F};  // of the fill tool

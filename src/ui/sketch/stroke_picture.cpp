@@ -97,7 +97,7 @@ void StrokePicture::paint(QPainter& painter, const Painted& it) {
   painter.setOpacity(before);
 }
 
-/// Where two lists of strokes differ, mm.
+/// The box in which two lists of strokes differ, mm.
 QRectF StrokePicture::changed_box(const std::vector<StrokePointer>& now) {
   QRectF box;
   const auto add = [&](const StrokePointer& stroke) { box = box.united(painted(stroke).box); };

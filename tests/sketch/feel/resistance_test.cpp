@@ -30,7 +30,7 @@ TEST(Resistance, OfAPullGoesBackToTheCurve) {
   EXPECT_EQ(pull_force({0.0, 0.0}), Vector2(0.0, 0.0));
 }
 
-// What hangs on more of the drawing is harder to move.
+// A selection that hangs on more of the drawing is harder to move.
 TEST(Resistance, OfAMoveGrowsWithWhatHoldsTheSelection) {
   const Vector2 move(0.01, 0.0);
   EXPECT_EQ(move_force(move, 0), Vector2(0.0, 0.0));

@@ -18,7 +18,7 @@ inline std::filesystem::path stroke_file(const std::string& ending, const std::s
   return file;
 }
 
-/// What is read out of such a file, which is removed.
+/// Reads such a file, which is removed afterwards.
 inline base::Result<StrokesRead> strokes_in(const std::string& ending, const std::string& text) {
   const auto file = stroke_file(ending, text);
   auto read = read_strokes(file);

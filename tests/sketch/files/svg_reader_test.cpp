@@ -99,7 +99,8 @@ TEST(SvgReader, KnowsColours) {
   const auto colour = [](const std::string& value) {
     return only_stroke("<path d='M0 0H9' stroke='" + value + "'/>").colour;
   };
-  EXPECT_EQ(colour("RebeccaPurple"), (Colour{0.0F, 0.0F, 0.0F})) << "not of SVG 1.1: told and black";
+  EXPECT_EQ(colour("RebeccaPurple"), (Colour{0.4F, 0.2F, 0.6F}));
+  EXPECT_EQ(colour("mud"), (Colour{0.0F, 0.0F, 0.0F})) << "no name of CSS: told and black";
   EXPECT_EQ(colour("yellowgreen"), (Colour{154.0F / 255.0F, 205.0F / 255.0F, 50.0F / 255.0F}));
   EXPECT_EQ(colour("#F80"), (Colour{1.0F, 136.0F / 255.0F, 0.0F}));
   EXPECT_EQ(colour("rgb(255, 50%,0)"), (Colour{1.0F, 0.5F, 0.0F}));
@@ -186,7 +187,7 @@ TEST(SvgReader, RefusesHostileFiles) {
   EXPECT_EQ(svg_error(svg_of(deep)), "a.svg:2: elements lie more than 200 deep within one another");
 }
 
-// What the project writes.
+// Files that the project wrote.
 
 constexpr const char* kOwnPath =
     "<path d='M0 0H1V1' icome:curve='M1,2 C3,4 5,6 0.1,8 C1,1 2,2 1,2' icome:widths='0,1,0.5,2.5 "

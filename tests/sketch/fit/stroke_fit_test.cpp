@@ -109,8 +109,8 @@ double turn_at_joint(const CubicBezier& first, const CubicBezier& second) {
   return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
 }
 
-/// What holds for every fit: a curve without gaps from the first sample to the last, finite, no wild handles,
-/// with as many breaks as it says, and widths all along.
+/// Holds a fit to what every fit must be: a curve without gaps from the first sample to the last, finite, no
+/// wild handles, with as many breaks as it says, and widths all along.
 void expect_sound(const PenStroke& stroke, const FittedStroke& fitted) {
   const Curve& curve = fitted.curve;
   ASSERT_FALSE(curve.segments.empty());
@@ -287,7 +287,7 @@ TEST(FitStroke, NoWidthIsNegativeWhereThePenHasNoLeastWidth) {
   }
 }
 
-// What real pens drew: all that holds for made-up strokes, and the fit of the thesis as well.
+// Strokes of real pens: all that holds for made-up strokes, and the fit of the thesis as well.
 TEST(FitStroke, SharedStrokesAreWithinTheBoundByDenseSampling) {
   const auto folder = places::shared_data() / "strokes";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the shared data is not here: " << folder;

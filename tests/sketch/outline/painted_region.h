@@ -10,7 +10,8 @@ namespace icome::sketch::testing {
 
 // The judges of outlines: what they are built from shares nothing with src/sketch/outline.
 
-/// How often a closed path of cubics winds around points: crossings of a level line to the right of each.
+/// Counts how often a closed path of cubics winds around points: crossings of a level line to the right of
+/// each.
 class Windings {
  public:
   explicit Windings(const std::vector<OutlinePiece>& pieces) {
@@ -95,7 +96,7 @@ class DenseDiscs {
   }
 
   double distance(const Vector2& p) const { return least(p, true); }
-  /// The same without the places that are nearest just because the line ends there.
+  /// The distance without the places that are nearest just because the line ends there.
   double distance_within(const Vector2& p) const { return least(p, false); }
 
   /// Some point near the rim or within: where a test looks closely.
