@@ -196,6 +196,19 @@ TEST(FitStroke, TheSameDrawingAtAnotherScaleHasTheSameCurve) {
   }
 }
 
+// A straight piece of least squares may pass what the pen can draw; the line must not.
+TEST(FitStroke, WidthsStayWithinThoseOfThePen) {
+  PenStroke stroke = drawn(200, [](double u) { return Vector2(0.1 * u, 0.0); });
+  for (std::size_t i = 0; i < stroke.size(); ++i)
+    stroke[i].pressure = std::clamp(0.5 + 0.8 * std::sin(0.1 * double(i)), 0.0, 1.0);
+  FitSettings settings = fit_settings(FitMethod::Exact, true);
+  settings.tip = {0.0, 0.001};
+  for (const WidthSegment& piece : fit_stroke(stroke, settings).curve.widths) {
+    EXPECT_GE(std::min(piece.from_width, piece.to_width), 0.0);
+    EXPECT_LE(std::max(piece.from_width, piece.to_width), 0.001);
+  }
+}
+
 TEST(FitStroke, ARestOfTenSecondsAt1kHzCostsAFewSegments) {
   const FittedStroke fitted = fit_stroke(at_rest(10000), fit_settings(FitMethod::Exact, true));
   EXPECT_LE(fitted.error, kFitError);
