@@ -78,7 +78,7 @@ void add_points(SketchSection& section, const std::string& figure, const std::ve
 
 SketchSection nearest_figures(const std::vector<BenchStroke>& strokes, const SketchExtent& extent) {
   std::vector<CubicBezier> curves;
-  for (const sketch::Curve& curve : drawn_sheet(strokes, extent.curves))
+  for (const drawing::Curve& curve : drawn_sheet(strokes, extent.curves))
     for (const CubicBezier& segment : curve.segments)
       if (curves.size() < extent.curves) curves.push_back(segment);
   SketchSection section{

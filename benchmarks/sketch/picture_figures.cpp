@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <memory>
 
+#include "drawing/outline/outline.h"
 #include "drawn_sheet.h"
 #include "sketch/files/picture.h"
-#include "sketch/outline/outline.h"
 #include "sketch_figures.h"
 
 namespace icome::benchmarks {
@@ -19,16 +19,16 @@ constexpr double kAimOfRedraw = 16.0;         // ms
 constexpr double kSizeOfPeer = 0.6;
 constexpr double kThinningOfPeer = 2.0 / 3.0;
 
-sketch::Drawing drawing_of(std::vector<sketch::Curve> curves) {
-  sketch::Drawing drawing;
+drawing::Drawing drawing_of(std::vector<drawing::Curve> curves) {
+  drawing::Drawing drawing;
   drawing.size = Vector2(kSheetWidth, kSheetHeight);
-  sketch::Layer layer;
+  drawing::Layer layer;
   layer.id = drawing.next_layer_id();
-  for (sketch::Curve& curve : curves) {
-    sketch::Stroke stroke;
+  for (drawing::Curve& curve : curves) {
+    drawing::Stroke stroke;
     stroke.id = drawing.next_stroke_id();
     stroke.curve = std::move(curve);
-    layer.strokes.push_back(std::make_shared<const sketch::Stroke>(std::move(stroke)));
+    layer.strokes.push_back(std::make_shared<const drawing::Stroke>(std::move(stroke)));
   }
   drawing.layers.push_back(std::move(layer));
   return drawing;
@@ -42,7 +42,7 @@ double least_us(int repeats, const Work& work) {
 }
 
 void add_redraw(SketchSection& section, const std::vector<BenchStroke>& strokes, const SketchExtent& extent) {
-  const sketch::Drawing drawing = drawing_of(drawn_sheet(strokes, extent.curves));
+  const drawing::Drawing drawing = drawing_of(drawn_sheet(strokes, extent.curves));
   sketch::PictureOptions options;
   options.longer_side = kPixels;
   options.area = sketch::PictureArea::Paper;
@@ -65,11 +65,11 @@ OutlineCost our_outlines(const std::vector<BenchStroke>& strokes, int repeats) {
   for (const BenchStroke& named : strokes) {
     sketch::FittedStroke fitted;
     cost.fit_us += least_us(repeats, [&] { fitted = sketch::fit_stroke(named.stroke, {}); });
-    std::vector<sketch::OutlinePiece> pieces;
+    std::vector<drawing::OutlinePiece> pieces;
     cost.outline_us += least_us(repeats, [&] {
-      pieces = sketch::outline_of(fitted.curve, sketch::CurveEnds::Round, kOutlineTolerance);
+      pieces = drawing::outline_of(fitted.curve, drawing::CurveEnds::Round, kOutlineTolerance);
     });
-    for (const sketch::OutlinePiece& piece : pieces) cost.cubics += piece.rim.size();
+    for (const drawing::OutlinePiece& piece : pieces) cost.cubics += piece.rim.size();
   }
   return cost;
 }

@@ -154,7 +154,7 @@ int run_sketch_feel(const SketchOptions& options) {
   }
   if (!options.out.empty()) {
     const auto written =
-        sketch::write_drawing(sketch::drawing_of(drawn), options.out, {}, sketch::SvgLines::Outlines);
+        sketch::write_drawing(sketch::drawing_of(drawn), options.out, {}, drawing::SvgLines::Outlines);
     if (!written) return sketch_failed(written.error());
   }
   return print_answer(options.json ? feel_json(options, report) : feel_text(options, report));

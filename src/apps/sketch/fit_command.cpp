@@ -49,13 +49,13 @@ std::string fit_json(const SketchOptions& options, const FitReport& report) {
     Json entry;
     entry["samples"] = stroke.samples;
     entry["segments"] = Json::array();
-    for (const sketch::CubicBezier& segment : stroke.curve.segments) {
+    for (const drawing::CubicBezier& segment : stroke.curve.segments) {
       Json points = Json::array();
       for (const base::Vector2& point : segment.points) points.push_back(json_of_point(point));
       entry["segments"].push_back(std::move(points));
     }
     entry["widths"] = Json::array();
-    for (const sketch::WidthSegment& piece : stroke.curve.widths)
+    for (const drawing::WidthSegment& piece : stroke.curve.widths)
       entry["widths"].push_back({piece.from, in_mm(piece.from_width), piece.to, in_mm(piece.to_width)});
     entry["max_error_mm"] = stroke.error * kMillimetresOfMetre;
     entry["corners"] = stroke.corners;

@@ -26,7 +26,7 @@ int list_sketch_tools(const SketchOptions& options) {
 }
 
 std::string edit_report_json(const SketchOptions& options, const EditOutcome& outcome,
-                             const sketch::Drawing& drawing, bool written) {
+                             const drawing::Drawing& drawing, bool written) {
   Json json;
   json["in"] = options.in.string();
   json["out"] = written ? Json(options.out.string()) : Json(nullptr);
@@ -40,12 +40,12 @@ std::string edit_report_json(const SketchOptions& options, const EditOutcome& ou
   json["layers"] = drawing.layers.size();
   json["strokes"] = drawing.stroke_count();
   json["segments"] = count_segments(drawing);
-  json["hash"] = fmt::format("{:016x}", sketch::hash_of(drawing));
+  json["hash"] = fmt::format("{:016x}", drawing::hash_of(drawing));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string edit_report_text(const SketchOptions& options, const EditOutcome& outcome,
-                             const sketch::Drawing& drawing) {
+                             const drawing::Drawing& drawing) {
   constexpr std::size_t kMostNotes = 20;
   std::string text =
       fmt::format("{}: {}, {} in {}\n", options.out.string(), how_many(outcome.operations, "operation"),

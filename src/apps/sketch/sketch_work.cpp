@@ -16,8 +16,8 @@ int sketch_failed(const base::Error& error) {
 
 double in_mm(double metres) { return std::round(metres * kMillimetresOfMetre * 1e9) / 1e9; }
 
-sketch::SvgLines svg_lines(const SketchOptions& options) {
-  return options.centre_lines ? sketch::SvgLines::CentreLines : sketch::SvgLines::Outlines;
+drawing::SvgLines svg_lines(const SketchOptions& options) {
+  return options.centre_lines ? drawing::SvgLines::CentreLines : drawing::SvgLines::Outlines;
 }
 
 sketch::PictureOptions picture_options(const SketchOptions& options) {
@@ -29,10 +29,10 @@ sketch::PictureOptions picture_options(const SketchOptions& options) {
   return picture;
 }
 
-std::size_t count_segments(const sketch::Drawing& drawing) {
+std::size_t count_segments(const drawing::Drawing& drawing) {
   std::size_t segments = 0;
-  for (const sketch::Layer& layer : drawing.layers)
-    for (const sketch::StrokePointer& stroke : layer.strokes) segments += stroke->curve.segments.size();
+  for (const drawing::Layer& layer : drawing.layers)
+    for (const drawing::StrokePointer& stroke : layer.strokes) segments += stroke->curve.segments.size();
   return segments;
 }
 
@@ -40,9 +40,9 @@ std::string how_many(std::size_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-base::Result<sketch::DrawingRead> read_for_sketch(const SketchOptions& options) {
+base::Result<drawing::DrawingRead> read_for_sketch(const SketchOptions& options) {
   if (options.in == "new") {
-    sketch::DrawingRead empty;
+    drawing::DrawingRead empty;
     empty.drawing.layers.push_back({.id = empty.drawing.next_layer_id(), .name = "Layer 1", .strokes = {}});
     return empty;
   }

@@ -18,14 +18,14 @@ int sketch_failed(const base::Error& error);
 /// A length in mm, without the digits that turning m into mm makes.
 double in_mm(double metres);
 
-sketch::SvgLines svg_lines(const SketchOptions& options);
+drawing::SvgLines svg_lines(const SketchOptions& options);
 sketch::PictureOptions picture_options(const SketchOptions& options);
 
-std::size_t count_segments(const sketch::Drawing& drawing);
+std::size_t count_segments(const drawing::Drawing& drawing);
 /// "1 stroke", "2 strokes".
 std::string how_many(std::size_t count, const char* what);
 
 /// The drawing to begin with: an empty page for "new", an SVG file, or the curves of a recording.
-base::Result<sketch::DrawingRead> read_for_sketch(const SketchOptions& options);
+base::Result<drawing::DrawingRead> read_for_sketch(const SketchOptions& options);
 
 }  // namespace icome::apps

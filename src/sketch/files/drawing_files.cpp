@@ -33,13 +33,14 @@ Drawing drawing_of(std::span<const FittedStroke> strokes) {
   return drawing;
 }
 
-base::Result<DrawingRead> read_drawing(const std::filesystem::path& file, const FitSettings& settings) {
-  if (io::ending_of(file).type == ".svg") return read_svg_drawing(file);
+base::Result<drawing::DrawingRead> read_drawing(const std::filesystem::path& file,
+                                                const FitSettings& settings) {
+  if (io::ending_of(file).type == ".svg") return drawing::read_svg_drawing(file);
   auto read = read_strokes(file);
   if (!read) return tl::unexpected(read.error());
   std::vector<FittedStroke> fitted;
   for (const PenStroke& stroke : read->strokes) fitted.push_back(fit_stroke(stroke, settings));
-  return DrawingRead{drawing_of(fitted), std::move(read->notes)};
+  return drawing::DrawingRead{drawing_of(fitted), std::move(read->notes)};
 }
 
 base::Result<void> check_can_write_drawing(const std::filesystem::path& path) {
@@ -49,11 +50,11 @@ base::Result<void> check_can_write_drawing(const std::filesystem::path& path) {
 }
 
 base::Result<void> write_drawing(const Drawing& drawing, const std::filesystem::path& path,
-                                 const PictureOptions& options, SvgLines lines) {
+                                 const PictureOptions& options, drawing::SvgLines lines) {
   if (io::ending_of(path).type != ".svg") return write_picture(drawing, options, path);
   auto file = io::NewFile::create(path);
   if (!file) return tl::unexpected(file.error());
-  file->write(svg_text(drawing, lines));
+  file->write(drawing::svg_text(drawing, lines));
   return file->finish();
 }
 

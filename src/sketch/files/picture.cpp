@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "drawing/outline/outline.h"
+#include "drawing/svg/svg_writer.h"
 #include "io/file_ending.h"
 #include "io/new_file.h"
-#include "sketch/files/svg_writer.h"
-#include "sketch/outline/outline.h"
 
 namespace icome::sketch {
 namespace {
@@ -115,7 +115,7 @@ base::Result<std::string> picture_bytes(const Drawing& drawing, const PictureOpt
   const std::string ending = io::ending_of(path).type;
   if (ending == ".png") return png_bytes(drawing, options);
   if (ending == ".pdf") return pdf_bytes(drawing, options);
-  if (ending == ".svg") return svg_text(drawing, SvgLines::Outlines);
+  if (ending == ".svg") return drawing::svg_text(drawing, drawing::SvgLines::Outlines);
   return base::fail(fmt::format("{}: a picture of a drawing ends in .png, .pdf or .svg", path.string()));
 }
 
@@ -124,7 +124,7 @@ base::Result<std::string> picture_bytes(const Drawing& drawing, const PictureOpt
 void paint(charts::Canvas& canvas, const Stroke& stroke, const Eigen::Affine2d& page_from_paper,
            double tolerance) {
   std::vector<charts::CubicLoop> line;
-  for (const OutlinePiece& piece : outline_of(stroke.curve, stroke.ends, tolerance))
+  for (const drawing::OutlinePiece& piece : drawing::outline_of(stroke.curve, stroke.ends, tolerance))
     line.push_back(page_loop(piece.rim, page_from_paper));
   const bool grouped = stroke.fill && !line.empty() && stroke.opacity < 1.0;
   const double opacity = grouped ? 1.0 : stroke.opacity;

@@ -4,7 +4,7 @@
 
 #include "base/result.h"
 #include "charts/canvas.h"
-#include "sketch/drawing/drawing.h"
+#include "sketch/drawn.h"
 
 namespace icome::sketch {
 

@@ -9,13 +9,18 @@
 
 #include "base/parse_number.h"
 #include "base/shown_text.h"
+#include "drawing/svg/xml_text.h"
 #include "io/text_scanner.h"
 #include "sketch/files/stroke_collector.h"
 #include "sketch/files/stroke_formats.h"
-#include "sketch/files/xml_text.h"
 
 namespace icome::sketch {
 namespace {
+
+using drawing::local_name;
+using drawing::XmlAttribute;
+using drawing::XmlNode;
+using drawing::XmlText;
 
 constexpr int kDeepestInk = 100;  // groups of traces within one another
 

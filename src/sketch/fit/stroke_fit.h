@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "sketch/drawing/curve.h"
+#include "sketch/drawn.h"
 #include "sketch/fit/pen_sample.h"
 
 namespace icome::sketch {

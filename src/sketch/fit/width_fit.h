@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "sketch/drawing/curve.h"
+#include "sketch/drawn.h"
 
 namespace icome::sketch {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "drawing/outline/outline.h"
 #include "fonts/outline_union.h"
-#include "sketch/outline/outline.h"
 #include "world/edit/edit.h"
 #include "world/shape/mesh_geometry.h"
 #include "world/shape/solid_geometry.h"
@@ -133,7 +133,7 @@ class ReliefMaker {
                 "fill", group);
     }
     fonts::Rings rings;
-    for (const OutlinePiece& piece : outline_of(stroke.curve, stroke.ends, kRingTolerance))
+    for (const drawing::OutlinePiece& piece : drawing::outline_of(stroke.curve, stroke.ends, kRingTolerance))
       rings.push_back(ring_of_loop(piece.rim, grid_));
     add_ridge(stroke, rings, height, stroke.colour, "stroke", group);
   }

@@ -1,6 +1,6 @@
 #pragma once
 #include "base/result.h"
-#include "sketch/drawing/drawing.h"
+#include "sketch/drawn.h"
 #include "sketch/feel/paper.h"
 #include "world/world.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "interaction/operations/operation.h"
-#include "sketch/drawing/drawing_edit.h"
+#include "sketch/drawn.h"
 #include "sketch/tools/selection.h"
 
 namespace icome::sketch {

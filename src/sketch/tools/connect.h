@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "sketch/drawing/drawing_edit.h"
+#include "sketch/drawn.h"
 
 namespace icome::sketch {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "sketch/drawing/drawing_edit.h"
+#include "sketch/drawn.h"
 
 namespace icome::sketch {
 

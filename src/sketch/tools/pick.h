@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "geometry/curve/curve_index.h"
-#include "sketch/drawing/drawing.h"
+#include "sketch/drawn.h"
 
 namespace icome::sketch {
 

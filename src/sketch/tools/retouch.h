@@ -1,5 +1,5 @@
 #pragma once
-#include "sketch/drawing/curve.h"
+#include "sketch/drawn.h"
 
 namespace icome::sketch {
 

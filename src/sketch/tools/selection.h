@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "sketch/drawing/drawing_edit.h"
+#include "sketch/drawn.h"
 
 namespace icome::sketch {
 

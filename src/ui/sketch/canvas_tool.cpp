@@ -18,7 +18,7 @@ QPen overlay_pen(double width) {
   return {colours_of_light().accent, width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin};
 }
 
-void paint_force(QPainter& painter, QPointF at, const sketch::Vector2& force, const PaperView& view) {
+void paint_force(QPainter& painter, QPointF at, const drawing::Vector2& force, const PaperView& view) {
   // Through the view without its zoom: the arrow turns with the paper.
   const QPointF way = QTransform().rotate(view.turned()).map(QPointF(force.x(), force.y())) * kArrowLength;
   const double length = std::hypot(way.x(), way.y());

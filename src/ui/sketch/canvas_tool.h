@@ -11,12 +11,12 @@ namespace icome::ui {
 
 /// One report of a pen or mouse over the paper.
 struct PenInput {
-  QPointF at;             // on the canvas
-  sketch::Vector2 place;  // on the paper, m
-  double time = 0.0;      // s, from any start
-  double pressure = 0.5;  // 0 to 1
-  double tilt = 0.0;      // of a pen, rad from upright
-  bool is_pen = false;    // else it feels no pressure
+  QPointF at;              // on the canvas
+  drawing::Vector2 place;  // on the paper, m
+  double time = 0.0;       // s, from any start
+  double pressure = 0.5;   // 0 to 1
+  double tilt = 0.0;       // of a pen, rad from upright
+  bool is_pen = false;     // else it feels no pressure
   Qt::KeyboardModifiers modifiers = {};
 };
 
@@ -71,6 +71,6 @@ inline constexpr double kTakenWithin = 12.0;
 /// The line in which overlays are drawn, in the theme's accent: on white paper in either theme.
 QPen overlay_pen(double width = 1.5);
 /// An arrow for a force (N) on the pen.
-void paint_force(QPainter& painter, QPointF at, const sketch::Vector2& force, const PaperView& view);
+void paint_force(QPainter& painter, QPointF at, const drawing::Vector2& force, const PaperView& view);
 
 }  // namespace icome::ui

@@ -26,13 +26,13 @@ class ConnectTool final : public CanvasTool {
     if (!held_) return;
     now_ = input;
     end_ = sketch::nearest_end(document().drawing(), input.place, view().on_paper(kAttracts), held_);
-    const sketch::Stroke* const stroke = document().drawing().find(held_->stroke);
+    const drawing::Stroke* const stroke = document().drawing().find(held_->stroke);
     if (stroke == nullptr) return;
-    auto changed = std::make_shared<sketch::Stroke>(*stroke);
+    auto changed = std::make_shared<drawing::Stroke>(*stroke);
     changed->curve = sketch::end_moved(stroke->curve, held_->is_last, end_ ? end_->place : input.place);
     if (end_ && end_->stroke == held_->stroke)
       changed->curve = sketch::closed(changed->curve, view().on_paper(kAttracts));
-    document().try_out(sketch::edit_of(sketch::ReplaceStroke{std::move(changed)}));
+    document().try_out(drawing::edit_of(drawing::ReplaceStroke{std::move(changed)}));
     redraw_all();
   }
 

@@ -18,16 +18,16 @@ class CurveTool : public CanvasTool {
 
   void press(const PenInput& input) override {
     look_for(input.place);
-    const sketch::Stroke* const stroke = pick_ ? document().drawing().find(pick_->stroke) : nullptr;
+    const drawing::Stroke* const stroke = pick_ ? document().drawing().find(pick_->stroke) : nullptr;
     if (stroke != nullptr) taken_ = *stroke;
     from_ = input;
   }
   void drag(const PenInput& input) override {
     if (!taken_) return;
     now_ = input;
-    auto changed = std::make_shared<sketch::Stroke>(*taken_);
+    auto changed = std::make_shared<drawing::Stroke>(*taken_);
     changed->curve = change(taken_->curve, *pick_, from_, input);
-    document().try_out(sketch::edit_of(sketch::ReplaceStroke{std::move(changed)}));
+    document().try_out(drawing::edit_of(drawing::ReplaceStroke{std::move(changed)}));
     redraw_all();
   }
   void release(const PenInput& input) override {
@@ -54,20 +54,20 @@ class CurveTool : public CanvasTool {
   }
 
  protected:
-  virtual sketch::Curve change(const sketch::Curve& curve, const sketch::Pick& pick, const PenInput& from,
-                               const PenInput& now) = 0;
+  virtual drawing::Curve change(const drawing::Curve& curve, const sketch::Pick& pick, const PenInput& from,
+                                const PenInput& now) = 0;
   /// The place on the canvas while it is dragged.
   virtual QPointF shown_at(const sketch::Pick& pick, const PenInput& now) const = 0;
-  virtual sketch::Vector2 force(const sketch::Vector2& pull) const = 0;
+  virtual drawing::Vector2 force(const drawing::Vector2& pull) const = 0;
 
  private:
-  void look_for(const sketch::Vector2& place) {
+  void look_for(const drawing::Vector2& place) {
     pick_ = document().index().nearest(place, view().on_paper(kTakenWithin));
     now_.reset();
   }
 
   std::optional<sketch::Pick> pick_;
-  std::optional<sketch::Stroke> taken_;  // as it was; none: nothing is held
+  std::optional<drawing::Stroke> taken_;  // as it was; none: nothing is held
   PenInput from_;
   std::optional<PenInput> now_;
 };
@@ -77,12 +77,12 @@ class PullTool final : public CurveTool {
   using CurveTool::CurveTool;
 
  private:
-  sketch::Curve change(const sketch::Curve& curve, const sketch::Pick& pick, const PenInput& from,
-                       const PenInput& now) override {
+  drawing::Curve change(const drawing::Curve& curve, const sketch::Pick& pick, const PenInput& from,
+                        const PenInput& now) override {
     return sketch::pulled(curve, pick.place, now.place - from.place, sketch::PullRule::Exact);
   }
   QPointF shown_at(const sketch::Pick& /*pick*/, const PenInput& now) const override { return now.at; }
-  sketch::Vector2 force(const sketch::Vector2& pull) const override { return sketch::pull_force(pull); }
+  drawing::Vector2 force(const drawing::Vector2& pull) const override { return sketch::pull_force(pull); }
 };
 
 /// A pen makes the line as wide as it is pressed at most: lightly, narrower. A mouse goes up for wider.
@@ -100,8 +100,8 @@ class WidthTool final : public CurveTool {
   static constexpr double kTwiceAsWide = 60.0;  // pixels up
   static constexpr double kMostFactor = 20.0;
 
-  sketch::Curve change(const sketch::Curve& curve, const sketch::Pick& pick, const PenInput& from,
-                       const PenInput& now) override {
+  drawing::Curve change(const drawing::Curve& curve, const sketch::Pick& pick, const PenInput& from,
+                        const PenInput& now) override {
     hardest_ = std::max(hardest_, now.pressure);
     const double factor = now.is_pen ? 2.0 * hardest_ : std::exp2((from.at.y() - now.at.y()) / kTwiceAsWide);
     return sketch::width_changed(curve, pick.place, std::min(factor, kMostFactor), kReach);
@@ -109,7 +109,7 @@ class WidthTool final : public CurveTool {
   QPointF shown_at(const sketch::Pick& pick, const PenInput& /*now*/) const override {
     return view().to_screen(pick.point);
   }
-  sketch::Vector2 force(const sketch::Vector2& /*pull*/) const override { return sketch::Vector2::Zero(); }
+  drawing::Vector2 force(const drawing::Vector2& /*pull*/) const override { return drawing::Vector2::Zero(); }
 
   double hardest_ = 0.0;  // pressure since the press
 };

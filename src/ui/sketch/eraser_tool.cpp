@@ -30,8 +30,8 @@ class EraserTool final : public CanvasTool {
  private:
   double reach() const { return look().eraser_radius / view().on_paper(1.0); }  // pixels
 
-  void erase(const sketch::Vector2& to) {
-    const sketch::Vector2 way[] = {last_, to};
+  void erase(const drawing::Vector2& to) {
+    const drawing::Vector2 way[] = {last_, to};
     std::uint64_t next = document().shown().next_id;
     const auto edit =
         sketch::erased(document().shown(), way, look().eraser_radius, look().whole_strokes, next);
@@ -40,7 +40,7 @@ class EraserTool final : public CanvasTool {
     move_circle(to);
   }
 
-  void move_circle(const sketch::Vector2& to) {
+  void move_circle(const drawing::Vector2& to) {
     if (circle_) bench_.redraw(circle_box());
     circle_ = to;
     bench_.redraw(circle_box());
@@ -52,8 +52,8 @@ class EraserTool final : public CanvasTool {
     return QRectF(middle - QPointF(side, side), QSizeF(2.0 * side, 2.0 * side)).toAlignedRect();
   }
 
-  sketch::Vector2 last_ = sketch::Vector2::Zero();
-  std::optional<sketch::Vector2> circle_;  // none: the pen was not here yet
+  drawing::Vector2 last_ = drawing::Vector2::Zero();
+  std::optional<drawing::Vector2> circle_;  // none: the pen was not here yet
 };
 
 }  // namespace

@@ -110,7 +110,7 @@ void LayerPanel::take_change(const QTreeWidgetItem& item, int column) {
       this, [this, fields = std::move(fields)] { use("change-layer", fields); }, Qt::QueuedConnection);
 }
 
-void LayerPanel::show_item(QTreeWidgetItem& item, const sketch::Layer& layer) {
+void LayerPanel::show_item(QTreeWidgetItem& item, const drawing::Layer& layer) {
   const QString name = one_line(layer.name);
   item.setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsEditable | Qt::ItemIsUserCheckable);
   item.setData(NameColumn, Qt::UserRole, qulonglong(layer.id.value));

@@ -21,7 +21,7 @@ class LayerPanel final : public QWidget {
 
  private:
   QToolButton* add_button(const char* name, const QString& text, Icon picture, std::function<void()> act);
-  void show_item(QTreeWidgetItem& item, const sketch::Layer& layer);
+  void show_item(QTreeWidgetItem& item, const drawing::Layer& layer);
   void take_change(const QTreeWidgetItem& item, int column);
   void use(const char* tool, interaction::Value::Fields fields = {});
   void move(int by);

@@ -99,7 +99,7 @@ void PenPanel::add_line_rows() {
   ends->setAccessibleName("Ends");
   ends->addItems({"Round", "Flat"});
   connect(ends, &QComboBox::activated, this, [this](int row) {
-    look_.ends = row == 1 ? sketch::CurveEnds::Flat : sketch::CurveEnds::Round;
+    look_.ends = row == 1 ? drawing::CurveEnds::Flat : drawing::CurveEnds::Round;
     give_selected(command("ends", {{"ends", row == 1 ? "flat" : "round"}}));
   });
   pen_->add_row("Ends", "The shape of a line where it begins and ends", {ends});

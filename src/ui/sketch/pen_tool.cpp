@@ -30,7 +30,7 @@ class PenTool final : public CanvasTool {
  private:
   sketch::FitSettings settings(const PenInput& input) const;
   sketch::PenSample sample(const PenInput& input) const;
-  QPainterPath line(const sketch::Curve& curve) const;
+  QPainterPath line(const drawing::Curve& curve) const;
   QPainterPath running_line() const;
   QPainterPath ahead_line() const;
   QRect on_screen(const QPainterPath& path) const;
@@ -57,8 +57,8 @@ sketch::PenSample PenTool::sample(const PenInput& input) const {
   return {input.time, input.place, pressure};
 }
 
-QPainterPath PenTool::line(const sketch::Curve& curve) const {
-  return line_path(curve, sketch::CurveEnds::Round, view().on_paper(0.1));
+QPainterPath PenTool::line(const drawing::Curve& curve) const {
+  return line_path(curve, drawing::CurveEnds::Round, view().on_paper(0.1));
 }
 
 QRect PenTool::on_screen(const QPainterPath& path) const {
@@ -106,11 +106,11 @@ QPainterPath PenTool::running_line() const {
 /// From where the pen is to where it will be in a frame.
 QPainterPath PenTool::ahead_line() const {
   const sketch::PenSample& last = stroke_->samples().back();
-  const sketch::Vector2 there = stroke_->predicted(kFrame);
+  const drawing::Vector2 there = stroke_->predicted(kFrame);
   if (there == last.place) return {};
   const double width = settings_.tip.width(last.pressure);
-  sketch::Curve ahead;
-  ahead.segments.push_back(sketch::CubicBezier::line(last.place, there));
+  drawing::Curve ahead;
+  ahead.segments.push_back(drawing::CubicBezier::line(last.place, there));
   ahead.widths.push_back({0.0, width, 1.0, width});
   return line(ahead);
 }
@@ -140,7 +140,7 @@ void PenTool::release(const PenInput& /*input*/) {
                                       {"widest", kMmAMetre * settings_.tip.widest},
                                       {"colour", command_colour(look().colour)},
                                       {"opacity", look().opacity},
-                                      {"ends", look().ends == sketch::CurveEnds::Flat ? "flat" : "round"}}));
+                                      {"ends", look().ends == drawing::CurveEnds::Flat ? "flat" : "round"}}));
 }
 
 void PenTool::give_up() {

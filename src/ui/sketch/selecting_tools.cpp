@@ -30,11 +30,11 @@ class SelectingTool final : public CanvasTool {
   }
   void choose(bool add);
   void paint_way(QPainter& painter) const;
-  sketch::Vector2 force() const;
+  drawing::Vector2 force() const;
 
   bool lasso_;
   std::optional<SelectionFrame::Grip> grip_;
-  std::vector<sketch::Vector2> way_;  // of the lasso or the touching; empty: nothing is chosen now
+  std::vector<drawing::Vector2> way_;  // of the lasso or the touching; empty: nothing is chosen now
   PenInput now_;
 };
 
@@ -72,7 +72,7 @@ void SelectingTool::release(const PenInput& input) {
 /// A lasso that was only clicked touches, so that a click always takes what it points at.
 void SelectingTool::choose(bool add) {
   interaction::Value::List places;
-  for (const sketch::Vector2& place : way_) places.emplace_back(command_place(place));
+  for (const drawing::Vector2& place : way_) places.emplace_back(command_place(place));
   interaction::Value::Fields fields = {{"way", std::move(places)}, {"add", add}};
   const bool goes_round = lasso_ && way_.size() > 2;
   if (!goes_round) fields.emplace_back("within", kMmInAMetre * view().on_paper(kTouchWithin));
@@ -87,13 +87,13 @@ void SelectingTool::give_up() {
 }
 
 /// The force that resists what is dragged (thesis 4.15 and its analogues).
-sketch::Vector2 SelectingTool::force() const {
+drawing::Vector2 SelectingTool::force() const {
   using Part = SelectionFrame::Part;
   const auto holding = sketch::holding_points(document().drawing(), document().selection());
   const Eigen::Affine2d to = SelectionFrame::moved(*grip_, now_.place);
   const Eigen::Matrix2d linear = to.linear();
   if (grip_->part == Part::Inside) return sketch::move_force(to.translation(), holding.size());
-  sketch::Vector2 sum = sketch::Vector2::Zero();
+  drawing::Vector2 sum = drawing::Vector2::Zero();
   const double angle = std::atan2(linear(1, 0), linear(0, 0));
   if (grip_->part != Part::Corner) sum += sketch::turn_force(now_.place, grip_->about, angle, holding);
   const double scaling = std::sqrt(linear.determinant());
@@ -103,7 +103,7 @@ sketch::Vector2 SelectingTool::force() const {
 
 void SelectingTool::paint_way(QPainter& painter) const {
   QPolygonF line;
-  for (const sketch::Vector2& place : way_) line << view().to_screen(place);
+  for (const drawing::Vector2& place : way_) line << view().to_screen(place);
   QPen pen = overlay_pen();
   if (lasso_) pen.setStyle(Qt::DashLine);
   painter.setPen(pen);

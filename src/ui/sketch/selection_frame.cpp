@@ -16,26 +16,27 @@ constexpr double kHandleReach = 9.0;  // pixels
 constexpr double kLeastScaling = 0.01;
 constexpr std::size_t kMostDots = 3000;
 
-constexpr sketch::Bounds2::CornerType kCorners[] = {sketch::Bounds2::BottomLeft, sketch::Bounds2::BottomRight,
-                                                    sketch::Bounds2::TopRight, sketch::Bounds2::TopLeft};
+constexpr drawing::Bounds2::CornerType kCorners[] = {drawing::Bounds2::BottomLeft,
+                                                     drawing::Bounds2::BottomRight,
+                                                     drawing::Bounds2::TopRight, drawing::Bounds2::TopLeft};
 
 double distance(QPointF a, QPointF b) { return std::hypot(a.x() - b.x(), a.y() - b.y()); }
 
-Eigen::Affine2d about_place(const sketch::Vector2& place, const Eigen::Matrix2d& linear) {
+Eigen::Affine2d about_place(const drawing::Vector2& place, const Eigen::Matrix2d& linear) {
   return Eigen::Translation2d(place) * Eigen::Affine2d(linear) * Eigen::Translation2d(-place);
 }
 
 }  // namespace
 
-SelectionFrame::SelectionFrame(const sketch::Bounds2& box, const PaperView& view) : box_(box), view_(view) {
-  const sketch::Vector2 beside = sketch::Vector2::Constant(view.on_paper(kBeside));
+SelectionFrame::SelectionFrame(const drawing::Bounds2& box, const PaperView& view) : box_(box), view_(view) {
+  const drawing::Vector2 beside = drawing::Vector2::Constant(view.on_paper(kBeside));
   box_ = {box.min() - beside, box.max() + beside};
 }
 
-std::optional<SelectionFrame> SelectionFrame::around(const sketch::Drawing& drawing,
+std::optional<SelectionFrame> SelectionFrame::around(const drawing::Drawing& drawing,
                                                      const sketch::Selection& selection,
                                                      const PaperView& view) {
-  const sketch::Bounds2 box = sketch::bounds_of(drawing, selection);
+  const drawing::Bounds2 box = sketch::bounds_of(drawing, selection);
   if (box.isEmpty()) return std::nullopt;
   return SelectionFrame(box, view);
 }
@@ -46,11 +47,11 @@ QPointF SelectionFrame::knob() const {
 }
 
 std::optional<SelectionFrame::Grip> SelectionFrame::grip(QPointF at, bool control) const {
-  const sketch::Vector2 place = view_.to_paper(at);
-  const sketch::Vector2 middle = box_.center();
+  const drawing::Vector2 place = view_.to_paper(at);
+  const drawing::Vector2 middle = box_.center();
   if (distance(at, knob()) < kHandleReach) return Grip{Part::Knob, place, middle};
   for (const auto corner : kCorners) {
-    const sketch::Vector2 there = box_.corner(corner);
+    const drawing::Vector2 there = box_.corner(corner);
     if (distance(at, view_.to_screen(there)) < kHandleReach)
       return Grip{Part::Corner, place, 2.0 * middle - there};
   }
@@ -58,11 +59,11 @@ std::optional<SelectionFrame::Grip> SelectionFrame::grip(QPointF at, bool contro
   return Grip{control ? Part::Similar : Part::Inside, place, middle};
 }
 
-Eigen::Affine2d SelectionFrame::moved(const Grip& grip, const sketch::Vector2& to) {
-  const sketch::Vector2 before = grip.from - grip.about;
-  const sketch::Vector2 now = to - grip.about;
+Eigen::Affine2d SelectionFrame::moved(const Grip& grip, const drawing::Vector2& to) {
+  const drawing::Vector2 before = grip.from - grip.about;
+  const drawing::Vector2 now = to - grip.about;
   if (grip.part == Part::Inside || before.isZero() || now.isZero())
-    return Eigen::Affine2d(Eigen::Translation2d(sketch::Vector2(to - grip.from)));
+    return Eigen::Affine2d(Eigen::Translation2d(drawing::Vector2(to - grip.from)));
   const double angle = std::atan2(before.x() * now.y() - before.y() * now.x(), before.dot(now));
   const double scaling = std::max(kLeastScaling, now.norm() / before.norm());
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
@@ -87,13 +88,13 @@ void SelectionFrame::paint(QPainter& painter) const {
   painter.setBrush(Qt::NoBrush);
 }
 
-void paint_selection(QPainter& painter, const sketch::Drawing& drawing, const sketch::Selection& selection,
+void paint_selection(QPainter& painter, const drawing::Drawing& drawing, const sketch::Selection& selection,
                      const PaperView& view) {
   std::size_t dots = 0;
   painter.setPen(Qt::NoPen);
   painter.setBrush(colours_of_light().accent);
   for (const auto& [id, chosen] : selection) {
-    const sketch::Stroke* const stroke = drawing.find(id);
+    const drawing::Stroke* const stroke = drawing.find(id);
     if (stroke == nullptr || chosen.size() != 3 * stroke->curve.segments.size() + 1) continue;
     for (std::size_t i = 0; i < chosen.size() && dots < kMostDots; ++i) {
       if (!chosen[i]) continue;
@@ -108,7 +109,7 @@ void paint_selection(QPainter& painter, const sketch::Drawing& drawing, const sk
   painter.setBrush(Qt::NoBrush);
   painter.setPen(overlay_pen());
   if (dots < kMostDots) {
-    for (const sketch::Vector2& place : sketch::holding_points(drawing, selection))
+    for (const drawing::Vector2& place : sketch::holding_points(drawing, selection))
       painter.drawEllipse(view.to_screen(place), 5.0, 5.0);
   }
 }

@@ -15,31 +15,31 @@ class SelectionFrame {
 
   struct Grip {
     Part part;
-    sketch::Vector2 from;   // where it was taken, m
-    sketch::Vector2 about;  // what stays in place
+    drawing::Vector2 from;   // where it was taken, m
+    drawing::Vector2 about;  // what stays in place
   };
 
   /// Around the chosen points; none where nothing is chosen.
-  static std::optional<SelectionFrame> around(const sketch::Drawing& drawing,
+  static std::optional<SelectionFrame> around(const drawing::Drawing& drawing,
                                               const sketch::Selection& selection, const PaperView& view);
 
   /// The part of the frame that a press at a place of the canvas takes.
   std::optional<Grip> grip(QPointF at, bool control) const;
   /// The transform of the chosen points when it is dragged to a place (m).
-  static Eigen::Affine2d moved(const Grip& grip, const sketch::Vector2& to);
+  static Eigen::Affine2d moved(const Grip& grip, const drawing::Vector2& to);
 
   void paint(QPainter& painter) const;
 
  private:
-  SelectionFrame(const sketch::Bounds2& box, const PaperView& view);
+  SelectionFrame(const drawing::Bounds2& box, const PaperView& view);
   QPointF knob() const;
 
-  sketch::Bounds2 box_;  // m
+  drawing::Bounds2 box_;  // m
   PaperView view_;
 };
 
 /// Dots for the chosen points, and rings for those that hold them (figure 4.8 of the thesis).
-void paint_selection(QPainter& painter, const sketch::Drawing& drawing, const sketch::Selection& selection,
+void paint_selection(QPainter& painter, const drawing::Drawing& drawing, const sketch::Selection& selection,
                      const PaperView& view);
 
 }  // namespace icome::ui

@@ -90,10 +90,10 @@ void SketchCanvas::show_cursor() { setCursor(space_ ? Qt::OpenHandCursor : curso
 void SketchCanvas::refresh() {
   onion_.clear();
   if (look_.onion) {
-    std::unordered_set<const sketch::Stroke*> there;
-    for (const sketch::Layer& layer : document_.shown().layers)
+    std::unordered_set<const drawing::Stroke*> there;
+    for (const drawing::Layer& layer : document_.shown().layers)
       for (const auto& stroke : layer.strokes) there.insert(stroke.get());
-    for (const sketch::Layer& layer : document_.before().layers)
+    for (const drawing::Layer& layer : document_.before().layers)
       for (const auto& stroke : layer.strokes)
         if (layer.visible && !there.contains(stroke.get())) onion_.push_back(stroke);
   }
@@ -183,7 +183,7 @@ PenInput SketchCanvas::input_of(const QMouseEvent& event) {
   const QPointF at = event.position();
   PenInput input{.at = at, .place = view_.to_paper(at), .time = time};
   input.pressure = look_.constant_width ? kConstantPressure
-                                        : mouse_.at(time, kPixelMetres * sketch::Vector2(at.x(), at.y()));
+                                        : mouse_.at(time, kPixelMetres * drawing::Vector2(at.x(), at.y()));
   input.modifiers = event.modifiers();
   return input;
 }

@@ -71,9 +71,9 @@ class SketchCanvas final : public QWidget {
   std::array<std::unique_ptr<CanvasTool>, kSketchToolCount> tools_;
   SketchToolKind tool_ = SketchToolKind::Pen;
   StrokePicture picture_;
-  std::vector<sketch::StrokePointer> onion_;  // what the last change took away
-  double whole_picture_seconds_ = 0.0;        // what the last one took
-  QTimer late_picture_;                       // while the view changes and pictures take long
+  std::vector<drawing::StrokePointer> onion_;  // what the last change took away
+  double whole_picture_seconds_ = 0.0;         // what the last one took
+  QTimer late_picture_;                        // while the view changes and pictures take long
   Contact contact_ = Contact::None;
   bool pen_is_down_ = false;        // that of a tablet
   bool eraser_end_ = false;         // of the pen that is down

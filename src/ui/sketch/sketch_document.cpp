@@ -8,16 +8,16 @@ namespace {
 
 constexpr double kCommandMm = 1000.0;  // mm in a m
 
-sketch::Drawing empty_page() {
-  sketch::Drawing page;
+drawing::Drawing empty_page() {
+  drawing::Drawing page;
   page.layers.push_back({.id = page.next_layer_id(), .name = "Layer 1", .strokes = {}});
   return page;
 }
 
 /// Is it the same drawing, stroke by stroke? Undo brings back the very strokes that there were.
-bool is_same(const sketch::Drawing& a, const sketch::Drawing& b) {
+bool is_same(const drawing::Drawing& a, const drawing::Drawing& b) {
   return a.size == b.size && std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
-                                        [](const sketch::Layer& one, const sketch::Layer& other) {
+                                        [](const drawing::Layer& one, const drawing::Layer& other) {
                                           return one.id == other.id && one.name == other.name &&
                                                  one.visible == other.visible && one.locked == other.locked &&
                                                  one.strokes == other.strokes;
@@ -28,7 +28,7 @@ bool is_same(const sketch::Drawing& a, const sketch::Drawing& b) {
 
 SketchDocument::SketchDocument() { take(empty_page()); }
 
-void SketchDocument::take(sketch::Drawing drawing) {
+void SketchDocument::take(drawing::Drawing drawing) {
   saved_ = drawing;
   before_ = drawing;
   runner_ = std::make_unique<sketch::SketchRunner>(std::move(drawing));
@@ -37,10 +37,10 @@ void SketchDocument::take(sketch::Drawing drawing) {
   index_.reset();
 }
 
-sketch::LayerId SketchDocument::layer() const {
-  for (const sketch::Layer& layer : drawing().layers)
+drawing::LayerId SketchDocument::layer() const {
+  for (const drawing::Layer& layer : drawing().layers)
     if (layer.id == runner_->layer()) return layer.id;
-  return drawing().layers.empty() ? sketch::LayerId{} : drawing().layers.back().id;
+  return drawing().layers.empty() ? drawing::LayerId{} : drawing().layers.back().id;
 }
 
 const sketch::StrokeIndex& SketchDocument::index() {
@@ -49,7 +49,7 @@ const sketch::StrokeIndex& SketchDocument::index() {
 }
 
 /// After a change that may have left the drawing as it was.
-void SketchDocument::finish(sketch::Drawing before) {
+void SketchDocument::finish(drawing::Drawing before) {
   tried_.reset();
   trying_.clear();
   if (!is_same(before, drawing())) {
@@ -60,7 +60,7 @@ void SketchDocument::finish(sketch::Drawing before) {
 }
 
 bool SketchDocument::perform(const Command& command) {
-  sketch::Drawing before = drawing();
+  drawing::Drawing before = drawing();
   const auto done = runner_->perform(command);
   finish(std::move(before));
   remark_(done ? *done : done.error().message);
@@ -75,23 +75,23 @@ void SketchDocument::redo() {
   if (can_redo()) perform(command("redo"));
 }
 
-void SketchDocument::try_out(const sketch::DrawingEdit& edit) {
+void SketchDocument::try_out(const drawing::DrawingEdit& edit) {
   tried_ = drawing();
   trying_.clear();
   try_more(edit);
 }
 
-void SketchDocument::try_more(const sketch::DrawingEdit& edit) {
+void SketchDocument::try_more(const drawing::DrawingEdit& edit) {
   if (!tried_) tried_ = drawing();
-  if (const auto done = sketch::apply_edit(*tried_, edit); !done) return remark_(done.error().message);
+  if (const auto done = drawing::apply_edit(*tried_, edit); !done) return remark_(done.error().message);
   trying_.insert(trying_.end(), edit.begin(), edit.end());
   changed_();
 }
 
 void SketchDocument::keep() {
-  const sketch::DrawingEdit edit = std::exchange(trying_, {});
+  const drawing::DrawingEdit edit = std::exchange(trying_, {});
   if (edit.empty()) return give_up();
-  sketch::Drawing before = drawing();
+  drawing::Drawing before = drawing();
   const auto done = runner_->perform(edit);
   finish(std::move(before));
   if (!done) remark_(done.error().message);
@@ -117,7 +117,7 @@ base::Result<std::vector<std::string>> SketchDocument::open(const std::filesyste
 }
 
 base::Result<void> SketchDocument::save(const std::filesystem::path& file) {
-  auto written = sketch::write_drawing(drawing(), file, {}, sketch::SvgLines::Outlines);
+  auto written = sketch::write_drawing(drawing(), file, {}, drawing::SvgLines::Outlines);
   if (!written) return written;
   saved_ = drawing();
   file_ = file;
@@ -131,11 +131,11 @@ SketchDocument::Command command(const char* tool, interaction::Value::Fields fie
   return fields;
 }
 
-interaction::Value command_place(const sketch::Vector2& place) {
+interaction::Value command_place(const drawing::Vector2& place) {
   return interaction::Value::List{kCommandMm * place.x(), kCommandMm * place.y()};
 }
 
-interaction::Value command_colour(const sketch::Colour& colour) {
+interaction::Value command_colour(const drawing::Colour& colour) {
   return interaction::Value::List{double(colour[0]), double(colour[1]), double(colour[2])};
 }
 

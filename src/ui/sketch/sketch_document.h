@@ -20,12 +20,12 @@ class SketchDocument {
   SketchDocument();  // an empty page of A4
 
   /// As it is; as it is seen while something is tried out; as it was before the last change.
-  const sketch::Drawing& drawing() const { return runner_->drawing(); }
-  const sketch::Drawing& shown() const { return tried_ ? *tried_ : drawing(); }
-  const sketch::Drawing& before() const { return tried_ ? drawing() : before_; }
+  const drawing::Drawing& drawing() const { return runner_->drawing(); }
+  const drawing::Drawing& shown() const { return tried_ ? *tried_ : drawing(); }
+  const drawing::Drawing& before() const { return tried_ ? drawing() : before_; }
   const sketch::Selection& selection() const { return runner_->selection(); }
   /// The layer that the next stroke goes to if it may; the topmost layer where none was chosen.
-  sketch::LayerId layer() const;
+  drawing::LayerId layer() const;
   /// Finds strokes of the drawing as it is.
   const sketch::StrokeIndex& index();
   bool can_undo() const { return runner_->can_undo(); }
@@ -37,9 +37,9 @@ class SketchDocument {
   void redo();
 
   /// Shows what an edit would do, in the place of what was tried out before it.
-  void try_out(const sketch::DrawingEdit& edit);
+  void try_out(const drawing::DrawingEdit& edit);
   /// Shows what an edit would do to what is shown, which is tried out, too.
-  void try_more(const sketch::DrawingEdit& edit);
+  void try_more(const drawing::DrawingEdit& edit);
   /// Does what was tried out, as one step to undo; nothing where nothing was.
   void keep();
   /// Ends showing what was tried out.
@@ -58,14 +58,14 @@ class SketchDocument {
   void on_remark(std::function<void(const std::string&)> remark) { remark_ = std::move(remark); }
 
  private:
-  void take(sketch::Drawing drawing);
-  void finish(sketch::Drawing before);
+  void take(drawing::Drawing drawing);
+  void finish(drawing::Drawing before);
 
   std::unique_ptr<sketch::SketchRunner> runner_;
-  sketch::Drawing before_;
-  std::optional<sketch::Drawing> tried_;
-  sketch::DrawingEdit trying_;                // what made it of the drawing
-  sketch::Drawing saved_;                     // as the file has it
+  drawing::Drawing before_;
+  std::optional<drawing::Drawing> tried_;
+  drawing::DrawingEdit trying_;               // what made it of the drawing
+  drawing::Drawing saved_;                    // as the file has it
   std::optional<sketch::StrokeIndex> index_;  // none: not made since the last change
   std::filesystem::path file_;                // empty: it has none
   bool is_foreign_ = false;                   // read from a recording, which cannot hold it
@@ -76,8 +76,8 @@ class SketchDocument {
 /// A command of these fields: command("move", {{"by", ...}}).
 SketchDocument::Command command(const char* tool, interaction::Value::Fields fields = {});
 /// A place (m) as commands have it: mm.
-interaction::Value command_place(const sketch::Vector2& place);
+interaction::Value command_place(const drawing::Vector2& place);
 /// A colour likewise.
-interaction::Value command_colour(const sketch::Colour& colour);
+interaction::Value command_colour(const drawing::Colour& colour);
 
 }  // namespace icome::ui

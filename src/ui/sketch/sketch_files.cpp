@@ -101,7 +101,7 @@ void SketchFiles::choose_and_export() {
     sketch::PictureOptions options;
     options.longer_side = kExportedSide;
     const auto written =
-        sketch::write_drawing(document_.drawing(), path_of(path), options, sketch::SvgLines::Outlines);
+        sketch::write_drawing(document_.drawing(), path_of(path), options, drawing::SvgLines::Outlines);
     if (!written) return fail(written.error().message);
     tell_({.weight = Note::Weight::Passing,
            .text = "Exported " + path_of(path).filename().string() + ".",

@@ -1,5 +1,5 @@
 #pragma once
-#include "sketch/drawing/drawing.h"
+#include "drawing/drawing.h"
 #include "sketch/fit/stroke_fit.h"
 #include "sketch/pen/pressure_curve.h"
 
@@ -7,12 +7,12 @@ namespace icome::ui {
 
 /// A person's choices in the window: the look of the pen's lines, and what is shown beside the drawing.
 struct SketchLook {
-  sketch::Colour colour = {0.11F, 0.13F, 0.16F};
-  sketch::Colour fill = {0.98F, 0.80F, 0.36F};  // of the fill tool
+  drawing::Colour colour = {0.11F, 0.13F, 0.16F};
+  drawing::Colour fill = {0.98F, 0.80F, 0.36F};  // of the fill tool
   double opacity = 1.0;
   sketch::PenTip tip = {.thinnest = 0.0003, .widest = 0.0015};
   sketch::PressureCurve pressure;
-  sketch::CurveEnds ends = sketch::CurveEnds::Round;
+  drawing::CurveEnds ends = drawing::CurveEnds::Round;
   double eraser_radius = 0.003;  // m
   bool whole_strokes = false;    // the eraser takes all of what it touches
   bool constant_width = false;   // for a mouse; else by its speed

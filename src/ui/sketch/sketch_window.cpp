@@ -70,10 +70,10 @@ ShortcutSheet::Part paper_part() {
            {"Back out", "Esc"}}};
 }
 
-std::size_t segments_in(const sketch::Drawing& drawing) {
+std::size_t segments_in(const drawing::Drawing& drawing) {
   std::size_t segments = 0;
-  for (const sketch::Layer& layer : drawing.layers)
-    for (const sketch::StrokePointer& stroke : layer.strokes) segments += stroke->curve.segments.size();
+  for (const drawing::Layer& layer : drawing.layers)
+    for (const drawing::StrokePointer& stroke : layer.strokes) segments += stroke->curve.segments.size();
   return segments;
 }
 
@@ -272,7 +272,7 @@ void SketchWindow::show_document() {
   undo_->setEnabled(document_.can_undo());
   redo_->setEnabled(document_.can_redo());
   for (QAction* action : of_selection_) action->setEnabled(!document_.selection().empty());
-  const sketch::Drawing& drawing = document_.drawing();
+  const drawing::Drawing& drawing = document_.drawing();
   const std::size_t strokes = drawing.stroke_count();
   const std::size_t segments = segments_in(drawing);
   count_->setText(QString("%L1 %2, %L3 %4")

@@ -3,32 +3,32 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sketch/outline/outline.h"
+#include "drawing/outline/outline.h"
 #include "ui/forms/colour_button.h"
 #include "ui/look/theme.h"
 
 namespace icome::ui {
 
-using sketch::StrokePointer;
+using drawing::StrokePointer;
 namespace {
 
 constexpr double kMmOfPath = 1000.0;         // mm in a m
 constexpr double kUnseenPixels = 0.04;       // by which an outline may be off
 constexpr std::size_t kSpareOutlines = 256;  // kept beside those that are seen, for undo and drags
 
-QPointF path_point(const sketch::Vector2& place) { return {kMmOfPath * place.x(), kMmOfPath * place.y()}; }
+QPointF path_point(const drawing::Vector2& place) { return {kMmOfPath * place.x(), kMmOfPath * place.y()}; }
 
-void add_loop(QPainterPath& path, const std::vector<sketch::CubicBezier>& edges) {
+void add_loop(QPainterPath& path, const std::vector<drawing::CubicBezier>& edges) {
   if (edges.empty()) return;
   path.moveTo(path_point(edges.front().points[0]));
-  for (const sketch::CubicBezier& edge : edges)
+  for (const drawing::CubicBezier& edge : edges)
     path.cubicTo(path_point(edge.points[1]), path_point(edge.points[2]), path_point(edge.points[3]));
   path.closeSubpath();
 }
 
-std::vector<StrokePointer> seen_strokes(const sketch::Drawing& drawing) {
+std::vector<StrokePointer> seen_strokes(const drawing::Drawing& drawing) {
   std::vector<StrokePointer> all;
-  for (const sketch::Layer& layer : drawing.layers)
+  for (const drawing::Layer& layer : drawing.layers)
     if (layer.visible) all.insert(all.end(), layer.strokes.begin(), layer.strokes.end());
   return all;
 }
@@ -41,10 +41,10 @@ double tolerance_at(const PaperView& view, double pixel_ratio) {
 
 }  // namespace
 
-QPainterPath line_path(const sketch::Curve& curve, sketch::CurveEnds ends, double tolerance) {
+QPainterPath line_path(const drawing::Curve& curve, drawing::CurveEnds ends, double tolerance) {
   QPainterPath path;
   path.setFillRule(Qt::WindingFill);
-  for (const sketch::OutlinePiece& piece : sketch::outline_of(curve, ends, tolerance))
+  for (const drawing::OutlinePiece& piece : drawing::outline_of(curve, ends, tolerance))
     add_loop(path, piece.rim);
   return path;
 }
@@ -65,7 +65,7 @@ const StrokePicture::Painted& StrokePicture::painted(const StrokePointer& stroke
 void StrokePicture::paint(QPainter& painter, const StrokePointer& stroke) { paint(painter, painted(stroke)); }
 
 void StrokePicture::paint(QPainter& painter, const Painted& it) {
-  const sketch::Stroke& stroke = *it.stroke;
+  const drawing::Stroke& stroke = *it.stroke;
   const auto fill = [&](QPainter& on, double opacity) {
     on.setOpacity(opacity);
     if (stroke.fill) on.fillPath(it.inside, screen_colour(*stroke.fill));
@@ -121,7 +121,7 @@ QRectF StrokePicture::changed_box(const std::vector<StrokePointer>& now) {
 
 void StrokePicture::forget_unused() {
   if (painted_.size() <= strokes_.size() + kSpareOutlines) return;
-  std::unordered_map<const sketch::Stroke*, Painted> used;
+  std::unordered_map<const drawing::Stroke*, Painted> used;
   for (const StrokePointer& stroke : strokes_) {
     const auto known = painted_.find(stroke.get());
     if (known != painted_.end()) used.emplace(known->first, std::move(known->second));
@@ -158,7 +158,7 @@ void StrokePicture::draw(const QRect& part) {
   }
 }
 
-QRect StrokePicture::show(const sketch::Drawing& drawing, const PaperView& view, QSize size,
+QRect StrokePicture::show(const drawing::Drawing& drawing, const PaperView& view, QSize size,
                           double pixel_ratio) {
   const QSize pixels = (QSizeF(size) * pixel_ratio).toSize();
   std::vector<StrokePointer> now = seen_strokes(drawing);

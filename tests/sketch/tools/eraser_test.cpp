@@ -2,14 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include "sketch/tools/tools_test_curves.h"
+#include "drawing/test_drawings.h"
+#include "sketch/dense_distance.h"
 
 namespace icome::sketch {
 namespace {
 
-using judges::drawing_with;
+using drawing::judges::drawing_with;
+using drawing::judges::random_curve;
 using judges::LineDistance;
-using judges::random_curve;
 
 constexpr double kRubber = 0.012;  // m
 

@@ -1,15 +1,16 @@
 // Pulling, smoothing, widths, closing and chaining of curves.
 #include <gtest/gtest.h>
 
+#include "drawing/test_drawings.h"
+#include "sketch/dense_distance.h"
 #include "sketch/tools/connect.h"
 #include "sketch/tools/pull.h"
 #include "sketch/tools/retouch.h"
-#include "sketch/tools/tools_test_curves.h"
 
 namespace icome::sketch {
 namespace {
 
-using judges::random_curve;
+using drawing::judges::random_curve;
 
 double joint_turn(const Curve& curve, std::size_t joint) {
   const Vector2 a = curve.segments[joint == 0 ? curve.segments.size() - 1 : joint - 1].end_direction();

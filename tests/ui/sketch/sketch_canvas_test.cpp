@@ -15,7 +15,7 @@ TEST_F(SketchCanvasTest, APenDrawsAStrokeAsWideAsItIsPressed) {
   for (int i = 0; i <= 40; ++i) way.push_back({50.0 + i, 60.0, 0.1 + 0.02 * i});
   pen_stroke(way);
   ASSERT_EQ(strokes().size(), 1U);
-  const sketch::Curve& curve = strokes()[0]->curve;
+  const drawing::Curve& curve = strokes()[0]->curve;
   EXPECT_NEAR(curve.at(0.0).x(), 0.05, 1e-4);
   EXPECT_NEAR(curve.at(curve.end()).x(), 0.09, 1e-4);
   const sketch::PenTip& tip = window_->look().tip;
@@ -77,7 +77,7 @@ TEST_F(SketchCanvasTest, TheRunningStrokeIsSeenWhileItIsDrawn) {
 
 TEST_F(SketchCanvasTest, PullIsLiveAndOneStepToUndo) {
   mouse({{50.0, 50.0}, {100.0, 50.0}, {150.0, 50.0}});
-  const sketch::StrokePointer before = strokes()[0];
+  const drawing::StrokePointer before = strokes()[0];
   canvas().choose(SketchToolKind::Pull);
   mouse({{100.0, 50.0}, {100.0, 60.0}, {100.0, 70.0}});
   EXPECT_NEAR(strokes()[0]->curve.bounds().max().y(), 0.07, 0.003);
@@ -92,14 +92,14 @@ TEST_F(SketchCanvasTest, PullIsLiveAndOneStepToUndo) {
 TEST_F(SketchCanvasTest, ALassoSelectsAndADragWithinItsFrameMoves) {
   mouse({{50.0, 50.0}, {60.0, 55.0}, {70.0, 50.0}});
   mouse({{150.0, 150.0}, {160.0, 150.0}});
-  const sketch::StrokePointer other = strokes()[1];
-  const sketch::Bounds2 before = strokes()[0]->curve.bounds();
+  const drawing::StrokePointer other = strokes()[1];
+  const drawing::Bounds2 before = strokes()[0]->curve.bounds();
   canvas().choose(SketchToolKind::Lasso);
   mouse({{40.0, 40.0}, {80.0, 40.0}, {80.0, 70.0}, {40.0, 70.0}});
   ASSERT_EQ(document().selection().size(), 1U);
   mouse({{60.0, 52.0}, {70.0, 62.0}, {80.0, 72.0}});
-  const sketch::Bounds2 after = strokes()[0]->curve.bounds();
-  EXPECT_LT((after.min() - before.min() - sketch::Vector2(0.02, 0.02)).norm(), 1e-9);
+  const drawing::Bounds2 after = strokes()[0]->curve.bounds();
+  EXPECT_LT((after.min() - before.min() - drawing::Vector2(0.02, 0.02)).norm(), 1e-9);
   EXPECT_LT((after.sizes() - before.sizes()).norm(), 1e-9);
   EXPECT_EQ(strokes()[1], other);
   QKeyEvent right(QEvent::KeyPress, Qt::Key_Right, {});
@@ -140,7 +140,7 @@ TEST_F(SketchCanvasTest, TheWheelZoomsAboutThePointerAndTurnsWhileRIsHeld) {
     QCoreApplication::sendEvent(&canvas(), &event);
   };
   const QPointF at(300.0, 200.0);
-  const sketch::Vector2 under = canvas().view().to_paper(at);
+  const drawing::Vector2 under = canvas().view().to_paper(at);
   const double scale = canvas().view().pixels_per_mm();
   wheel(at);
   EXPECT_GT(canvas().view().pixels_per_mm(), 1.1 * scale);

@@ -60,9 +60,9 @@ class SketchHands : public ::testing::Test {
     pen(QEvent::TabletRelease, {way.back().x, way.back().y, 0.0}, end);
   }
 
-  std::vector<sketch::StrokePointer> strokes() {
-    std::vector<sketch::StrokePointer> all;
-    for (const sketch::Layer& layer : document().drawing().layers)
+  std::vector<drawing::StrokePointer> strokes() {
+    std::vector<drawing::StrokePointer> all;
+    for (const drawing::Layer& layer : document().drawing().layers)
       all.insert(all.end(), layer.strokes.begin(), layer.strokes.end());
     return all;
   }

@@ -32,11 +32,11 @@ TEST_F(SketchWindowTest, WhatIsSavedIsOpenedAgain) {
   ASSERT_TRUE(document().save(file("drawing.svg")));
   EXPECT_FALSE(window_->isWindowModified());
   EXPECT_EQ(window_->windowTitle(), "drawing.svg[*] - ICOME");
-  const sketch::Curve drawn = strokes()[0]->curve;
+  const drawing::Curve drawn = strokes()[0]->curve;
   SketchWindow other;
   other.open(file("drawing.svg"));
   ASSERT_EQ(other.document().drawing().stroke_count(), 1U);
-  const sketch::Curve& read = other.document().drawing().layers[0].strokes[0]->curve;
+  const drawing::Curve& read = other.document().drawing().layers[0].strokes[0]->curve;
   ASSERT_EQ(read.segments.size(), drawn.segments.size());
   EXPECT_LT((read.at(0.5) - drawn.at(0.5)).norm(), 1e-9);
   EXPECT_FALSE(other.isWindowModified());

@@ -1,0 +1,95 @@
+#pragma once
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/result.h"
+#include "drawing/drawing.h"
+
+namespace icome::drawing {
+
+/// Puts a new stroke into a layer, before the one that is at `place`.
+struct PutStroke {
+  LayerId layer;
+  std::size_t place = 0;
+  StrokePointer stroke;
+};
+struct TakeStroke {
+  StrokeId id;
+};
+/// Another stroke for the one of the same id.
+struct ReplaceStroke {
+  StrokePointer stroke;
+};
+
+/// Name and state of a layer, without its strokes.
+struct LayerLook {
+  std::string name;
+  bool visible = true;
+  bool locked = false;
+};
+/// Puts a layer without strokes among the others.
+struct PutLayer {
+  LayerId id;
+  std::size_t place = 0;
+  LayerLook look;
+};
+/// Takes a layer away that has no strokes.
+struct TakeLayer {
+  LayerId id;
+};
+struct ChangeLayer {
+  LayerId id;
+  LayerLook look;
+};
+struct MoveLayer {
+  LayerId id;
+  std::size_t place = 0;  ///< among the layers-to-be
+};
+struct ResizePaper {
+  Vector2 size = Vector2::Zero();  ///< m
+};
+
+/// A part of an edit. A plain value.
+using DrawingChange = std::variant<PutStroke, TakeStroke, ReplaceStroke, PutLayer, TakeLayer, ChangeLayer,
+                                   MoveLayer, ResizePaper>;
+
+/// A change of a drawing, the only way in which one changes: a plain value that can be applied and taken
+/// back. Its parts are applied in order, all or none.
+using DrawingEdit = std::vector<DrawingChange>;
+
+/// The edit that does one thing.
+DrawingEdit edit_of(DrawingChange change);
+
+/// Changes the drawing and gives the edit that takes it back. A refused edit changes nothing, and the error
+/// says why: an id that is not there or is there twice, a place beyond the end, a layer that has strokes, a
+/// stroke without a segment or with numbers that are not finite.
+base::Result<DrawingEdit> apply_edit(Drawing& drawing, const DrawingEdit& edit);
+
+/// A drawing with the edits that were done to it, so that they can be taken back and done again.
+class DrawingHistory {
+ public:
+  explicit DrawingHistory(Drawing drawing) : drawing_(std::move(drawing)) {}
+
+  const Drawing& drawing() const { return drawing_; }
+  /// For ids of new things, which are not taken back.
+  Drawing& ids() { return drawing_; }
+
+  /// Applies the edit as one step that can be undone; what was undone before is forgotten. Fails as
+  /// apply_edit().
+  base::Result<void> perform(const DrawingEdit& edit);
+  /// False where there is nothing to take back, or to do again.
+  bool undo();
+  bool redo();
+  bool can_undo() const { return !undo_.empty(); }
+  bool can_redo() const { return !redo_.empty(); }
+
+ private:
+  bool step(std::vector<DrawingEdit>& from, std::vector<DrawingEdit>& to);
+
+  Drawing drawing_;
+  std::vector<DrawingEdit> undo_;
+  std::vector<DrawingEdit> redo_;
+};
+
+}  // namespace icome::drawing

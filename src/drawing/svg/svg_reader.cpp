@@ -1,0 +1,418 @@
+#include "drawing/svg/svg_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+
+#include "base/shown_text.h"
+#include "drawing/svg/svg_frame.h"
+#include "drawing/svg/svg_names.h"
+#include "drawing/svg/svg_notes.h"
+#include "drawing/svg/svg_own.h"
+#include "drawing/svg/svg_shapes.h"
+#include "drawing/svg/svg_style.h"
+#include "drawing/svg/xml_text.h"
+#include "io/file_bytes.h"
+#include "io/text_scanner.h"
+
+namespace icome::drawing {
+namespace {
+
+constexpr std::uint64_t kLargestSvg = 64U << 20U;    // bytes
+constexpr int kDeepestSvg = 200;                     // elements within one another, through <use> too
+constexpr int kMostUsesWithin = 32;                  // <use> that shows <use> and so on
+constexpr std::size_t kMostSvgElements = 2'000'000;  // drawn, through <use> too
+constexpr std::size_t kMostSvgBytes = 128U << 20U;   // of attributes, likewise
+constexpr std::size_t kMostSvgSegments = 10'000'000;
+constexpr double kFarthestSvgPoint = 1e4;  // m
+constexpr double kEvenScale = 1e-3;        // relative difference of the scales that widths do not show
+
+/// Elements that say nothing about lines, or are looked at where something refers to them.
+constexpr std::array<std::string_view, 14> kSilentElements = {
+    "defs",           "title",          "desc",    "metadata", "symbol", "marker", "clipPath",
+    "linearGradient", "radialGradient", "pattern", "mask",     "filter", "view",   "script"};
+
+/// The state that holds for the elements in one place of the file.
+struct SvgContext {
+  Eigen::Affine2d root_from_user = Eigen::Affine2d::Identity();  ///< root: the units within the outer <svg>
+  SvgStyle style;
+  Vector2 whole = Vector2::Zero();  ///< what percent are of, user units
+  int depth = 0;
+  int uses = 0;
+};
+
+class SvgReader {
+ public:
+  explicit SvgReader(const XmlText& xml) : xml_(xml), notes_(xml) {}
+
+  base::Result<DrawingRead> read();
+
+ private:
+  using Done = base::Result<void>;
+
+  void index_ids();
+  bool is_svg_name(const XmlNode& node) const;
+  std::string_view reference_of(const XmlNode& use) const;
+  std::string layer_name_of(const XmlNode& group) const;
+  bool is_marked_layer(const XmlNode& group) const;
+  Done read_root_frame(SvgContext& context);
+  Done read_top(const XmlNode& node, const SvgContext& root);
+  Done read_layer(const XmlNode& group, const SvgContext& root);
+  Done read_element(const XmlNode& node, const SvgContext& around, bool is_layer = false);
+  Done read_inside(const XmlNode& node, const SvgContext& context);
+  Done read_switch(const XmlNode& node, const SvgContext& context);
+  Done read_use(const XmlNode& node, SvgContext context);
+  Done read_nested(const XmlNode& node, SvgContext context, const Vector2& size);
+  Done read_shape(const XmlNode& node, const SvgContext& context);
+  Done read_own(const XmlNode& node, Stroke stroke, const SvgContext& context);
+  Done charge(const XmlNode& node);
+  Done enter(const XmlNode& node, const SvgContext& around, SvgContext& context);
+  Done add_subpath(const XmlNode& node, SvgSubpath subpath, const SvgContext& context);
+  Done add(const XmlNode& node, Stroke stroke);
+  void begin_layer(std::string name, bool is_loose);
+  bool is_skipped(const XmlNode& node);
+  double line_width(const XmlNode& node, const SvgContext& context);
+
+  const XmlText& xml_;
+  SvgNotes notes_;
+  Drawing drawing_;
+  std::unordered_map<std::string_view, XmlNode> ids_;
+  Eigen::Affine2d metres_from_root_ = Eigen::Affine2d::Identity();
+  bool is_loose_layer_ = false;  // the last layer takes what lies outside of groups
+  std::size_t loose_layers_ = 0;
+  std::size_t elements_ = 0, bytes_ = 0, segments_ = 0;
+};
+
+/// A line between two points has nothing within it to be filled.
+bool encloses_nothing(const SvgSubpath& subpath) {
+  if (subpath.segments.size() > 1) return false;
+  const CubicBezier& only = subpath.segments.front();
+  return only == CubicBezier::line(only.points[0], only.points[3]);
+}
+
+void SvgReader::index_ids() {
+  for_each_element(xml_.root(), [&](const XmlNode& node) {
+    if (const XmlAttribute id = node.attribute("id")) ids_.emplace(id.value(), node);
+  });
+}
+
+/// Does the name belong to SVG, which is the namespace of the outermost element, whatever that says?
+bool SvgReader::is_svg_name(const XmlNode& node) const {
+  return xml_.namespace_of(node.name()) == xml_.namespace_of(xml_.root().name());
+}
+
+std::string_view SvgReader::reference_of(const XmlNode& use) const {
+  for (const char* const name : {"href", "xlink:href"})
+    if (const XmlAttribute reference = use.attribute(name)) return reference.value();
+  return xml_.attribute_of(use, kXlinkNamespace, "href").value();
+}
+
+/// The name of a layer: ours, Inkscape's, the id; empty where there is none.
+std::string SvgReader::layer_name_of(const XmlNode& group) const {
+  if (const auto own = xml_.attribute_of(group, kSketchNamespace, kLayerAttribute)) return own.value();
+  const XmlAttribute label = xml_.attribute_of(group, kInkscapeNamespace, "label");
+  return label ? label.value() : group.attribute("id").value();
+}
+
+/// Is the group a layer also where it is empty?
+bool SvgReader::is_marked_layer(const XmlNode& group) const {
+  if (xml_.attribute_of(group, kSketchNamespace, kLayerAttribute)) return true;
+  return xml_.attribute_of(group, kInkscapeNamespace, "groupmode").value() == std::string_view("layer");
+}
+
+void SvgReader::begin_layer(std::string name, bool is_loose) {
+  Layer layer;
+  layer.id = drawing_.next_layer_id();
+  layer.name = std::move(name);
+  drawing_.layers.push_back(std::move(layer));
+  is_loose_layer_ = is_loose;
+}
+
+/// Counts what is looked at, so that <use> of <use> of much ends.
+SvgReader::Done SvgReader::charge(const XmlNode& node) {
+  for (const XmlAttribute attribute : node.attributes())
+    bytes_ += 1 + std::string_view(attribute.value()).size();
+  if (++elements_ <= kMostSvgElements && bytes_ <= kMostSvgBytes) return {};
+  return xml_.fail_at(node,
+                      fmt::format("more than {} elements or {} MiB are to be drawn; the <use> of the file "
+                                  "may multiply one another",
+                                  kMostSvgElements, kMostSvgBytes >> 20U));
+}
+
+/// Takes the step from an element's surroundings into it.
+SvgReader::Done SvgReader::enter(const XmlNode& node, const SvgContext& around, SvgContext& context) {
+  context = around;
+  if (++context.depth > kDeepestSvg)
+    return xml_.fail_at(node, fmt::format("elements lie more than {} deep within one another", kDeepestSvg));
+  context.style = svg_style_of(node, around.style, around.whole.norm() / std::sqrt(2.0), notes_);
+  if (const XmlAttribute transform = node.attribute("transform")) {
+    const auto parsed = parse_svg_transform(transform.value());
+    if (!parsed) return xml_.fail_at(node, parsed.error().message);
+    context.root_from_user = around.root_from_user * *parsed;
+  }
+  return {};
+}
+
+SvgReader::Done SvgReader::add(const XmlNode& node, Stroke stroke) {
+  for (const CubicBezier& segment : stroke.curve.segments)
+    for (const Vector2& point : segment.points)
+      if (!(point.cwiseAbs().maxCoeff() <= kFarthestSvgPoint))
+        return xml_.fail_at(node, fmt::format("<{}> reaches farther than {:g} m from the paper's corner",
+                                              node.name(), kFarthestSvgPoint));
+  segments_ += stroke.curve.segments.size();
+  if (segments_ > kMostSvgSegments)
+    return xml_.fail_at(node, fmt::format("the drawing has more than {} segments", kMostSvgSegments));
+  stroke.id = drawing_.next_stroke_id();
+  drawing_.layers.back().strokes.push_back(std::make_shared<const Stroke>(std::move(stroke)));
+  return {};
+}
+
+/// The width of a line in m.
+double SvgReader::line_width(const XmlNode& node, const SvgContext& context) {
+  const Eigen::Matrix2d linear = (metres_from_root_ * context.root_from_user).linear();
+  const double one = linear.col(0).norm(), other = linear.col(1).norm();
+  const double turned = std::abs(linear.col(0).dot(linear.col(1)));
+  if (std::abs(one - other) > kEvenScale * one || turned > kEvenScale * one * other)
+    notes_.tell(node, "the width of an unevenly scaled line is taken as its mean");
+  return context.style.line_width * std::sqrt(std::abs(linear.determinant()));
+}
+
+SvgReader::Done SvgReader::add_subpath(const XmlNode& node, SvgSubpath subpath, const SvgContext& context) {
+  const SvgStyle& style = context.style;
+  Stroke stroke;
+  const bool has_line = style.line && style.line_width > 0.0;
+  const bool has_fill = style.fill && !encloses_nothing(subpath);
+  const double line_opacity = has_line ? style.opacity * style.line_opacity * style.line->alpha : 0.0;
+  const double fill_opacity = has_fill ? style.opacity * style.fill_opacity * style.fill->alpha : 0.0;
+  stroke.curve.segments = std::move(subpath.segments);
+  stroke.curve.closed = subpath.closed;
+  stroke.curve = transformed(stroke.curve, metres_from_root_ * context.root_from_user);
+  stroke.ends = style.ends;
+  if (has_fill) {
+    stroke.fill = style.fill->colour;
+    stroke.colour = style.fill->colour;
+    stroke.opacity = fill_opacity;
+  }
+  if (!has_line) return has_fill ? add(node, std::move(stroke)) : Done{};
+  if (has_fill && fill_opacity != line_opacity) {
+    // One stroke has one opacity: the fill lies below as a stroke of its own.
+    if (const auto added = add(node, stroke); !added) return added;
+    stroke.fill.reset();
+  }
+  const double width = line_width(node, context);
+  if (!std::isfinite(width) || width > kFarthestSvgPoint)
+    return xml_.fail_at(node,
+                        fmt::format("the line of <{}> is wider than {:g} m", node.name(), kFarthestSvgPoint));
+  stroke.curve.widths = {{0.0, width, stroke.curve.end(), width}};
+  stroke.colour = style.line->colour;
+  stroke.opacity = line_opacity;
+  return add(node, std::move(stroke));
+}
+
+SvgReader::Done SvgReader::read_own(const XmlNode& node, Stroke stroke, const SvgContext& context) {
+  if (context.root_from_user.matrix() == Eigen::Matrix3d::Identity()) return add(node, std::move(stroke));
+  notes_.tell(node, "a stroke of ICOME was moved by another program");
+  stroke.curve =
+      transformed(stroke.curve, metres_from_root_ * context.root_from_user * metres_from_root_.inverse());
+  return add(node, std::move(stroke));
+}
+
+SvgReader::Done SvgReader::read_shape(const XmlNode& node, const SvgContext& context) {
+  const bool is_redrawn = was_redrawn(xml_, node);
+  if (is_redrawn)
+    notes_.tell(node, "a stroke of ICOME was drawn anew by another program: its outline is taken");
+  if (!is_redrawn) {
+    auto own = own_stroke_of(xml_, node);
+    if (!own) return xml_.fail_at(node, own.error().message);
+    if (*own) return read_own(node, std::move(**own), context);
+  }
+  if (!context.style.visible) {
+    notes_.tell(node, "a hidden element is skipped");
+    return {};
+  }
+  if (!context.style.line && !context.style.fill) {
+    notes_.tell(node, "a shape without line and fill is skipped");
+    return {};
+  }
+  auto subpaths = svg_shape_of(node, context.whole);
+  if (!subpaths) return xml_.fail_at(node, subpaths.error().message);
+  if (subpaths->size() > 1 && context.style.fill)
+    notes_.tell(node, "each part of a filled path is a stroke with a fill of its own: holes are filled");
+  for (SvgSubpath& subpath : *subpaths)
+    if (const auto added = add_subpath(node, std::move(subpath), context); !added) return added;
+  return {};
+}
+
+/// An <svg> or <symbol> within the file, which has that size in the units around it.
+SvgReader::Done SvgReader::read_nested(const XmlNode& node, SvgContext context, const Vector2& size) {
+  if (!(size.minCoeff() > 0.0)) return {};
+  const auto viewport = svg_viewport(node, size);
+  if (!viewport) return xml_.fail_at(node, viewport.error().message);
+  context.root_from_user = context.root_from_user * viewport->outer_from_inner;
+  context.whole = viewport->size;
+  return read_inside(node, context);
+}
+
+SvgReader::Done SvgReader::read_use(const XmlNode& node, SvgContext context) {
+  const std::string_view reference = reference_of(node);
+  const auto found = reference.starts_with('#') ? ids_.find(reference.substr(1)) : ids_.end();
+  if (found == ids_.end()) {
+    notes_.tell(node, "<use> of what is not in the file is skipped");
+    return {};
+  }
+  if (++context.uses > kMostUsesWithin)
+    return xml_.fail_at(node, fmt::format("<use> of {} shows itself, or lies more than {} deep in others",
+                                          quoted_value(reference), kMostUsesWithin));
+  const auto length = [&](const char* name, double whole, double otherwise) {
+    const XmlAttribute attribute = node.attribute(name);
+    return attribute ? parse_svg_length(attribute.value(), whole).value_or(otherwise) : otherwise;
+  };
+  const Vector2 corner(length("x", context.whole.x(), 0.0), length("y", context.whole.y(), 0.0));
+  context.root_from_user = context.root_from_user * Eigen::Translation2d(corner);
+  const XmlNode shown = found->second;
+  if (local_name(shown.name()) != "symbol") return read_element(shown, context);
+  SvgContext within;
+  if (const auto entered = enter(shown, context, within); !entered) return entered;
+  const Vector2 size(length("width", context.whole.x(), context.whole.x()),
+                     length("height", context.whole.y(), context.whole.y()));
+  return read_nested(shown, within, size);
+}
+
+/// Only the first child of a <switch> is shown.
+SvgReader::Done SvgReader::read_switch(const XmlNode& node, const SvgContext& context) {
+  for (const XmlNode child : node.children())
+    if (child.is_element() && is_svg_name(child)) return read_element(child, context);
+  return {};
+}
+
+SvgReader::Done SvgReader::read_inside(const XmlNode& node, const SvgContext& context) {
+  for (const XmlNode child : node.children())
+    if (const auto read = read_element(child, context); !read) return read;
+  return {};
+}
+
+/// Is it nothing that is drawn? Tells what people would miss.
+bool SvgReader::is_skipped(const XmlNode& node) {
+  if (!node.is_element() || !is_svg_name(node)) return true;
+  if (xml_.attribute_of(node, kSketchNamespace, kShownAttribute).value() == std::string_view("only"))
+    return true;
+  const std::string_view name = local_name(node.name());
+  if (std::ranges::count(kSilentElements, name) > 0) return true;
+  constexpr std::array<std::string_view, 5> kContainers = {"g", "a", "svg", "use", "switch"};
+  if (is_svg_shape(name) || std::ranges::count(kContainers, name) > 0) return false;
+  notes_.tell(node, fmt::format("<{}> is skipped", base::shown_text(name)));
+  return true;
+}
+
+SvgReader::Done SvgReader::read_element(const XmlNode& node, const SvgContext& around, bool is_layer) {
+  if (const auto charged = charge(node); !charged) return charged;
+  if (is_skipped(node)) return {};
+  SvgContext context;
+  if (const auto entered = enter(node, around, context); !entered) return entered;
+  if (!context.style.displayed && !is_layer) {
+    notes_.tell(node, "a hidden element is skipped");
+    return {};
+  }
+  const std::string_view name = local_name(node.name());
+  if (is_svg_shape(name)) return read_shape(node, context);
+  if (name == "use") return read_use(node, std::move(context));
+  if (name == "switch") return read_switch(node, context);
+  if (name != "svg") return read_inside(node, context);
+  const auto length = [&](const char* side, double whole, double otherwise) {
+    return parse_svg_length(node.attribute(side).value(), whole).value_or(otherwise);
+  };
+  const Vector2 whole = context.whole;
+  const Vector2 corner(length("x", whole.x(), 0.0), length("y", whole.y(), 0.0));
+  context.root_from_user = context.root_from_user * Eigen::Translation2d(corner);
+  return read_nested(node, context,
+                     {length("width", whole.x(), whole.x()), length("height", whole.y(), whole.y())});
+}
+
+SvgReader::Done SvgReader::read_layer(const XmlNode& group, const SvgContext& root) {
+  std::string name = layer_name_of(group);
+  const bool is_own = bool(xml_.attribute_of(group, kSketchNamespace, kLayerAttribute));
+  if (name.empty() && !is_own) name = fmt::format("Layer {}", drawing_.layers.size() + 1);
+  const bool was_loose = is_loose_layer_;
+  begin_layer(std::move(name), false);
+  SvgNotes unheard(xml_);
+  const bool is_shown = svg_style_of(group, root.style, 1.0, unheard).displayed;
+  const std::size_t index = drawing_.layers.size() - 1;
+  drawing_.layers[index].visible = is_shown && !own_flag_of(xml_, group, kHiddenAttribute);
+  drawing_.layers[index].locked = own_flag_of(xml_, group, kLockedAttribute);
+  if (const auto read = read_element(group, root, true); !read) return read;
+  if (!drawing_.layers[index].strokes.empty() || is_marked_layer(group)) return {};
+  drawing_.layers.pop_back();
+  is_loose_layer_ = was_loose;
+  return {};
+}
+
+SvgReader::Done SvgReader::read_top(const XmlNode& node, const SvgContext& root) {
+  if (is_skipped(node)) return {};
+  if (local_name(node.name()) == "g") return read_layer(node, root);
+  const bool has_room = is_loose_layer_ && !drawing_.layers.empty();
+  if (!has_room) begin_layer(fmt::format("Layer {}", ++loose_layers_), true);
+  if (const auto read = read_element(node, root); !read) return read;
+  if (has_room || !drawing_.layers.back().strokes.empty()) return {};
+  drawing_.layers.pop_back();
+  --loose_layers_;
+  is_loose_layer_ = false;
+  return {};
+}
+
+/// Paper and units: width, height and viewBox of the outermost element.
+SvgReader::Done SvgReader::read_root_frame(SvgContext& context) {
+  const XmlNode root = xml_.root();
+  const Vector2 paper = drawing_.size / kMetresOfSvgUnit;  // where the file tells none
+  const Vector2 whole = svg_view_box_size(root).value_or(paper);
+  Vector2 size = whole;
+  for (int i = 0; i < 2; ++i) {
+    const XmlAttribute side = root.attribute(i == 0 ? "width" : "height");
+    if (!side || std::string_view(side.value()) == "auto") continue;
+    const auto length = parse_svg_length(side.value(), whole[i]);
+    if (!length || !(*length > 0.0) || !(*length * kMetresOfSvgUnit <= kFarthestSvgPoint))
+      return xml_.fail_at(root, fmt::format("the {} {} is no length above 0 and up to {:g} m", side.name(),
+                                            quoted_value(side.value()), kFarthestSvgPoint));
+    size[i] = *length;
+  }
+  const auto viewport = svg_viewport(root, size);
+  if (!viewport) return xml_.fail_at(root, viewport.error().message);
+  metres_from_root_ = Eigen::Scaling(kMetresOfSvgUnit) * viewport->outer_from_inner;
+  context.whole = viewport->size;
+  drawing_.size = own_size_of(xml_).value_or(Vector2(size * kMetresOfSvgUnit));
+  return {};
+}
+
+base::Result<DrawingRead> SvgReader::read() {
+  const XmlNode root = xml_.root();
+  if (local_name(root.name()) != "svg")
+    return xml_.fail_at(
+        root, fmt::format("it is no SVG, which begins with <svg>, but <{}>", base::shown_text(root.name())));
+  index_ids();
+  SvgContext outside, context;
+  if (const auto framed = read_root_frame(outside); !framed) return tl::unexpected(framed.error());
+  if (const auto entered = enter(root, outside, context); !entered) return tl::unexpected(entered.error());
+  for (const XmlNode node : root.children())
+    if (const auto read = read_top(node, context); !read) return tl::unexpected(read.error());
+  return DrawingRead{std::move(drawing_), notes_.lines()};
+}
+
+}  // namespace
+
+base::Result<DrawingRead> read_svg_text(std::string_view text, const std::string& name) {
+  XmlText xml;
+  if (const auto loaded = xml.load(text, name); !loaded) return tl::unexpected(loaded.error());
+  return SvgReader(xml).read();
+}
+
+base::Result<DrawingRead> read_svg_drawing(const std::filesystem::path& file) {
+  const auto bytes = io::read_bytes(file, kLargestSvg);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return read_svg_text(*bytes, file.string());
+}
+
+}  // namespace icome::drawing

@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "drawing/drawing.h"
+
+namespace icome::drawing {
+
+/// The content of an SVG file.
+struct DrawingRead {
+  Drawing drawing;
+  std::vector<std::string>
+      notes;  ///< what is skipped or taken otherwise: "drawing.svg:12: <text> is skipped"
+};
+
+/// Reads the lines and fills of an SVG file: all commands of paths and all shapes, with transforms, units and
+/// inherited looks. Groups directly below the root are layers; what lies outside of them goes to layers of
+/// its own ("Layer 1"), so that nothing changes its order. A subpath is a stroke each. What the project wrote
+/// into the file itself (svg_names.h) comes back as it was. Fails with file and line on what is no SVG, on
+/// path data, transforms and lengths that are faulty, and on files that draw without an end.
+base::Result<DrawingRead> read_svg_drawing(const std::filesystem::path& file);
+
+/// Reads SVG out of memory; `name` is for errors and notes.
+base::Result<DrawingRead> read_svg_text(std::string_view text, const std::string& name);
+
+}  // namespace icome::drawing

@@ -1,0 +1,169 @@
+#include "drawing/svg/svg_style.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "drawing/svg/svg_frame.h"
+#include "drawing/svg/svg_scanner.h"
+#include "drawing/svg/xml_text.h"
+#include "io/text_scanner.h"
+
+namespace icome::drawing {
+namespace {
+
+/// Properties that change what is seen and that a drawing does not have.
+constexpr std::array<std::string_view, 9> kSkippedProperties = {
+    "clip-path",  "mask",       "filter",           "marker",        "marker-start",
+    "marker-mid", "marker-end", "stroke-dasharray", "mix-blend-mode"};
+
+std::string_view trimmed_css(std::string_view text) {
+  constexpr std::string_view kSvgBlanks = " \t\r\n\f";
+  const std::size_t first = text.find_first_not_of(kSvgBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kSvgBlanks) - first + 1);
+}
+
+/// Sets the properties of one element.
+class StyleSetter {
+ public:
+  StyleSetter(SvgStyle& style, const SvgStyle& around, double whole, const XmlNode& node, SvgNotes& notes)
+      : style_(style), around_(around), whole_(whole), node_(node), notes_(notes) {}
+
+  void set(std::string_view name, std::string_view value);
+  double own_opacity() const { return own_opacity_; }
+
+ private:
+  bool set_paint(std::string_view name, std::string_view value);
+  bool set_number(std::string_view name, std::string_view value);
+  void set_rest(std::string_view name, std::string_view value);
+  std::optional<CssColour> paint(std::string_view value, const std::optional<CssColour>& inherited);
+  std::optional<CssColour> colour_or_black(std::string_view value);
+  void set_share(double& share, std::string_view value, double inherited);
+
+  SvgStyle& style_;
+  const SvgStyle& around_;
+  double whole_;
+  const XmlNode& node_;
+  SvgNotes& notes_;
+  double own_opacity_ = 1.0;
+};
+
+std::optional<CssColour> StyleSetter::colour_or_black(std::string_view value) {
+  if (const auto colour = parse_css_colour(value)) return colour;
+  notes_.tell(node_, fmt::format("the colour {} is unknown and taken as black", quoted_value(value)));
+  return CssColour{};
+}
+
+std::optional<CssColour> StyleSetter::paint(std::string_view value,
+                                            const std::optional<CssColour>& inherited) {
+  if (value == "none") return std::nullopt;
+  if (value == "inherit") return inherited;
+  if (io::same_word(value, "currentColor")) return style_.current;
+  if (!value.starts_with("url(")) return colour_or_black(value);
+  // A colour may stand behind the reference, for programs that cannot follow it.
+  const std::size_t close = value.find(')');
+  const std::string_view instead =
+      close < value.size() ? trimmed_css(value.substr(close + 1)) : std::string_view();
+  if (!instead.empty()) return paint(instead.starts_with("url(") ? "black" : instead, inherited);
+  notes_.tell(node_, "a gradient or pattern (url) is taken as black");
+  return CssColour{};
+}
+
+void StyleSetter::set_share(double& share, std::string_view value, double inherited) {
+  SvgScanner scanner(value);
+  const auto number = scanner.number();
+  if (value == "inherit")
+    share = inherited;
+  else if (number)
+    share = std::clamp(*number / (scanner.take('%') ? 100.0 : 1.0), 0.0, 1.0);
+  else
+    notes_.tell(node_, fmt::format("the opacity {} is no number and is skipped", quoted_value(value)));
+}
+
+bool StyleSetter::set_paint(std::string_view name, std::string_view value) {
+  if (name == "fill")
+    style_.fill = paint(value, around_.fill);
+  else if (name == "stroke")
+    style_.line = paint(value, around_.line);
+  else
+    return false;
+  return true;
+}
+
+bool StyleSetter::set_number(std::string_view name, std::string_view value) {
+  if (name == "fill-opacity") {
+    set_share(style_.fill_opacity, value, around_.fill_opacity);
+  } else if (name == "stroke-opacity") {
+    set_share(style_.line_opacity, value, around_.line_opacity);
+  } else if (name == "opacity") {
+    set_share(own_opacity_, value, 1.0);
+  } else if (name == "stroke-width") {
+    const auto width = value == "inherit" ? around_.line_width : parse_svg_length(value, whole_);
+    if (width && *width >= 0.0)
+      style_.line_width = *width;
+    else
+      notes_.tell(node_, fmt::format("the stroke-width {} is no length and is skipped", quoted_value(value)));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void StyleSetter::set_rest(std::string_view name, std::string_view value) {
+  if (name == "stroke-linecap" && value != "inherit") {
+    style_.ends = value == "round" ? CurveEnds::Round : CurveEnds::Flat;
+    if (value == "square") notes_.tell(node_, "square ends of lines are taken as flat");
+  } else if (name == "visibility" && value != "inherit") {
+    style_.visible = value == "visible";
+  } else if (name == "display") {
+    style_.displayed = value != "none";
+  } else if (name == "fill-rule" && value == "evenodd") {
+    notes_.tell(node_, "fill-rule evenodd is taken as nonzero");
+  } else if (std::ranges::count(kSkippedProperties, name) > 0 && value != "none" && value != "normal") {
+    notes_.tell(node_, fmt::format("{} is skipped", name));
+  }
+}
+
+void StyleSetter::set(std::string_view name, std::string_view value) {
+  value = trimmed_css(value);
+  if (const std::size_t important = value.find("!important"); important != std::string_view::npos)
+    value = trimmed_css(value.substr(0, important));
+  if (!set_paint(name, value) && !set_number(name, value)) set_rest(name, value);
+}
+
+/// Calls `use` with the names and values of a style attribute.
+template <typename Use>
+void for_each_declaration(std::string_view text, const Use& use) {
+  while (!text.empty()) {
+    const std::string_view declaration = text.substr(0, text.find(';'));
+    text.remove_prefix(std::min(declaration.size() + 1, text.size()));
+    const std::size_t colon = declaration.find(':');
+    if (colon < declaration.size())
+      use(trimmed_css(declaration.substr(0, colon)), declaration.substr(colon + 1));
+  }
+}
+
+}  // namespace
+
+SvgStyle svg_style_of(const XmlNode& node, const SvgStyle& around, double whole, SvgNotes& notes) {
+  SvgStyle style = around;
+  style.displayed = true;
+  StyleSetter setter(style, around, whole, node, notes);
+  const std::string_view declarations = node.attribute("style").value();
+  // Colours may refer to this one, wherever it stands.
+  const auto set_current = [&](std::string_view name, std::string_view value) {
+    if (name != "color") return;
+    if (const auto colour = parse_css_colour(trimmed_css(value))) style.current = *colour;
+  };
+  for (const XmlAttribute attribute : node.attributes()) set_current(attribute.name(), attribute.value());
+  for_each_declaration(declarations, set_current);
+  for (const XmlAttribute attribute : node.attributes()) setter.set(attribute.name(), attribute.value());
+  for_each_declaration(declarations,
+                       [&](std::string_view name, std::string_view value) { setter.set(name, value); });
+  style.opacity = around.opacity * setter.own_opacity();
+  return style;
+}
+
+}  // namespace icome::drawing

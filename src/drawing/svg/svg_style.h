@@ -1,0 +1,28 @@
+#pragma once
+#include <optional>
+#include <string_view>
+
+#include "drawing/drawing.h"
+#include "drawing/svg/svg_colour.h"
+#include "drawing/svg/svg_notes.h"
+
+namespace icome::drawing {
+
+/// The paint of a shape, as far as drawings know it. Defaults are those of SVG.
+struct SvgStyle {
+  std::optional<CssColour> fill = CssColour{};
+  std::optional<CssColour> line;
+  CssColour current;        ///< the property `color`
+  double line_width = 1.0;  ///< user units
+  double fill_opacity = 1.0, line_opacity = 1.0;
+  double opacity = 1.0;  ///< of the element and all around it
+  CurveEnds ends = CurveEnds::Flat;
+  bool visible = true;
+  bool displayed = true;  ///< false for the element with display:none alone
+};
+
+/// The style of an element within one of style `around`, by its attributes and then its style attribute.
+/// `whole` is what percent of a width are of, in user units. What is not understood is noted.
+SvgStyle svg_style_of(const XmlNode& node, const SvgStyle& around, double whole, SvgNotes& notes);
+
+}  // namespace icome::drawing

@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+
+#include "drawing/drawing.h"
+
+namespace icome::drawing {
+
+/// The two ways to put the lines of a drawing into a file.
+enum class SvgLines {
+  Outlines,     ///< as their rims, filled: every program shows their true width
+  CentreLines,  ///< as lines of their mean width: other programs can edit them
+};
+
+/// The drawing as an SVG file in mm. Beside what every program shows it holds all that was drawn, as
+/// svg_names.h describes, so that read_svg_text() gives an equal drawing back (with other ids). Layers are
+/// layers in Inkscape, too.
+std::string svg_text(const Drawing& drawing, SvgLines lines);
+
+}  // namespace icome::drawing
