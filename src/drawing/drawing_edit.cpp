@@ -4,24 +4,62 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace icome::drawing {
 namespace {
+
+constexpr double kJoined = 1e-6;  // of the largest coordinate, or of the number of segments
+
+std::string complaint_about_segments(const std::vector<CubicBezier>& segments) {
+  double largest = 0.0;
+  for (const CubicBezier& segment : segments) {
+    for (const Vector2& point : segment.points) {
+      if (!point.allFinite()) return "a stroke has a place that is not finite";
+      largest = std::max(largest, point.cwiseAbs().maxCoeff());
+    }
+  }
+  if (largest > kLargestDrawing) return "a stroke has a place that is too far away";
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    if ((segments[i].points[0] - segments[i - 1].points[3]).norm() > kJoined * largest)
+      return "the segments of a stroke do not join";
+  }
+  return {};
+}
+
+std::string complaint_about_widths(const Curve& curve) {
+  const double slack = kJoined * curve.end();
+  double place = 0.0;
+  for (const WidthSegment& piece : curve.widths) {
+    for (const double width : {piece.from_width, piece.to_width})
+      if (!(width >= 0.0 && width <= kLargestDrawing)) return "a width is finite and not negative";
+    if (!(std::abs(piece.from - place) <= slack && piece.to >= piece.from))
+      return "the widths of a stroke do not join";
+    place = piece.to;
+  }
+  if (!curve.widths.empty() && !(std::abs(place - curve.end()) <= slack))
+    return "the widths of a stroke do not reach to its end";
+  return {};
+}
 
 std::string complaint(const Stroke& stroke) {
   if (!stroke.id) return "a stroke needs an id";
   if (stroke.curve.segments.empty()) return "a stroke needs a segment";
   if (!(stroke.opacity >= 0.0 && stroke.opacity <= 1.0)) return "an opacity is from 0 to 1";
-  for (const CubicBezier& segment : stroke.curve.segments)
-    for (const Vector2& point : segment.points)
-      if (!point.allFinite()) return "a stroke has a place that is not finite";
-  for (const WidthSegment& piece : stroke.curve.widths) {
-    if (!(std::isfinite(piece.from_width) && std::isfinite(piece.to_width)) || piece.from_width < 0.0 ||
-        piece.to_width < 0.0) {
-      return "a width is finite and not negative";
-    }
+  for (const float part : stroke.colour)
+    if (!std::isfinite(part)) return "a colour is finite";
+  if (stroke.fill) {
+    for (const float part : *stroke.fill)
+      if (!std::isfinite(part)) return "a colour is finite";
   }
-  return {};
+  if (std::string why = complaint_about_segments(stroke.curve.segments); !why.empty()) return why;
+  return complaint_about_widths(stroke.curve);
+}
+
+constexpr const char* kBadPaper = "the paper needs a width and a height above 0";
+
+bool is_paper(const Vector2& size) {
+  return size.allFinite() && size.minCoeff() > 0.0 && size.maxCoeff() <= kLargestDrawing;
 }
 
 /// Applies parts one after the other to a drawing of its own.
@@ -114,8 +152,7 @@ class Applying {
   }
 
   Undone operator()(const ResizePaper& part) {
-    if (!(part.size.allFinite() && part.size.minCoeff() > 0.0))
-      return base::fail("the paper needs a width and a height above 0");
+    if (!is_paper(part.size)) return base::fail(kBadPaper);
     const ResizePaper back = {drawing_.size};
     drawing_.size = part.size;
     return DrawingChange(back);
@@ -155,6 +192,24 @@ DrawingEdit edit_of(DrawingChange change) {
   return edit;
 }
 
+base::Result<void> check_drawing(const Drawing& drawing) {
+  if (!is_paper(drawing.size)) return base::fail(kBadPaper);
+  std::set<std::uint64_t> numbers;
+  const auto take = [&](std::uint64_t number) {
+    return number != 0 && number < drawing.next_id && numbers.insert(number).second;
+  };
+  for (const Layer& layer : drawing.layers) {
+    if (!take(layer.id.value)) return base::fail(fmt::format("a layer has the number {}", layer.id.value));
+    for (const StrokePointer& stroke : layer.strokes) {
+      if (!stroke) return base::fail("a stroke is missing");
+      if (const std::string why = complaint(*stroke); !why.empty()) return base::fail(why);
+      if (!take(stroke->id.value))
+        return base::fail(fmt::format("a stroke has the number {}", stroke->id.value));
+    }
+  }
+  return {};
+}
+
 base::Result<DrawingEdit> apply_edit(Drawing& drawing, const DrawingEdit& edit) {
   DrawingEdit back;
   Applying applying(drawing);
@@ -170,8 +225,18 @@ base::Result<DrawingEdit> apply_edit(Drawing& drawing, const DrawingEdit& edit) 
   return back;
 }
 
-base::Result<void> DrawingHistory::perform(const DrawingEdit& edit) {
+/// Applies the edit here and tells the sink, or neither.
+base::Result<DrawingEdit> DrawingHistory::apply_to_all(const DrawingEdit& edit) {
   auto back = apply_edit(drawing_, edit);
+  if (!back || !sink_) return back;
+  const auto taken = sink_(edit);
+  if (taken) return back;
+  (void)apply_edit(drawing_, *back);
+  return tl::unexpected(taken.error());
+}
+
+base::Result<void> DrawingHistory::perform(const DrawingEdit& edit) {
+  auto back = apply_to_all(edit);
   if (!back) return tl::unexpected(back.error());
   undo_.push_back(std::move(*back));
   redo_.clear();
@@ -180,9 +245,9 @@ base::Result<void> DrawingHistory::perform(const DrawingEdit& edit) {
 
 bool DrawingHistory::step(std::vector<DrawingEdit>& from, std::vector<DrawingEdit>& to) {
   if (from.empty()) return false;
-  auto back = apply_edit(drawing_, from.back());
-  from.pop_back();
+  auto back = apply_to_all(from.back());
   if (!back) return false;
+  from.pop_back();
   to.push_back(std::move(*back));
   return true;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -58,12 +59,20 @@ using DrawingChange = std::variant<PutStroke, TakeStroke, ReplaceStroke, PutLaye
 /// back. Its parts are applied in order, all or none.
 using DrawingEdit = std::vector<DrawingChange>;
 
+/// The largest coordinate and width in a drawing, m.
+inline constexpr double kLargestDrawing = 1e6;
+
 /// The edit that does one thing.
 DrawingEdit edit_of(DrawingChange change);
 
+/// Fails, saying why, for a drawing that edits could not have made: of what apply_edit() refuses, or numbers
+/// beyond next_id.
+base::Result<void> check_drawing(const Drawing& drawing);
+
 /// Changes the drawing and gives the edit that takes it back. A refused edit changes nothing, and the error
 /// says why: an id that is not there or is there twice, a place beyond the end, a layer that has strokes, a
-/// stroke without a segment or with numbers that are not finite.
+/// stroke without a segment, whose segments or widths do not join, or with numbers that are not finite or
+/// longer than kLargestDrawing.
 base::Result<DrawingEdit> apply_edit(Drawing& drawing, const DrawingEdit& edit);
 
 /// A drawing with the edits that were done to it, so that they can be taken back and done again.
@@ -75,10 +84,14 @@ class DrawingHistory {
   /// For ids of new things, which are not taken back.
   Drawing& ids() { return drawing_; }
 
+  /// Hears each edit that is applied, also those of undo and redo, and may refuse it.
+  using Sink = std::function<base::Result<void>(const DrawingEdit& edit)>;
+  void set_sink(Sink sink) { sink_ = std::move(sink); }
+
   /// Applies the edit as one step that can be undone; what was undone before is forgotten. Fails as
-  /// apply_edit().
+  /// apply_edit() and the sink do.
   base::Result<void> perform(const DrawingEdit& edit);
-  /// False where there is nothing to take back, or to do again.
+  /// False where there is nothing to take back, or to do again, or the sink refuses.
   bool undo();
   bool redo();
   bool can_undo() const { return !undo_.empty(); }
@@ -86,10 +99,12 @@ class DrawingHistory {
 
  private:
   bool step(std::vector<DrawingEdit>& from, std::vector<DrawingEdit>& to);
+  base::Result<DrawingEdit> apply_to_all(const DrawingEdit& edit);
 
   Drawing drawing_;
   std::vector<DrawingEdit> undo_;
   std::vector<DrawingEdit> redo_;
+  Sink sink_;
 };
 
 }  // namespace icome::drawing

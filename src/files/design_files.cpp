@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "files/drawing/svg_design.h"
 #include "files/gltf/gltf_reader.h"
 #include "files/gltf/gltf_writer.h"
 #include "files/journal/journal_design.h"
@@ -79,7 +80,7 @@ struct Format {
   bool may_be_packed;  // as .xz
   DesignWriter write;  // null: cannot be written
 };
-constexpr std::array<Format, 11> kFormats{
+constexpr std::array<Format, 12> kFormats{
     {{".wrl", UpAxis::Y, read_vrml, false, write_vrml},
      {".vrml", UpAxis::Y, read_vrml, false, write_vrml},
      {".wrz", UpAxis::Y, read_vrml, false, nullptr},
@@ -90,6 +91,7 @@ constexpr std::array<Format, 11> kFormats{
      {".stl", UpAxis::Z, read_mesh_design, true, write_stl_design},
      {".off", UpAxis::Y, read_mesh_design, true, write_off_design},
      {".csg", UpAxis::Z, read_csg_design, true, nullptr},
+     {".svg", UpAxis::Y, read_svg_design, false, write_svg_design},
      {".icome", UpAxis::Y, read_journal_design, false, write_journal_design}}};
 
 const Format* format_of(const io::FileEnding& ending) {

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "drawing/shape/drawing_shape.h"
+#include "drawing/shape/drawing_text.h"
 #include "files/csg/csg_text.h"
 #include "geometry/primitive/primitive.h"
 #include "io/number_text.h"
@@ -102,6 +104,13 @@ base::Result<GeometryPointer> csg_of(const ShapeText& text) {
   return std::make_shared<const world::CsgGeometry>(std::move(*tree));
 }
 
+base::Result<GeometryPointer> drawing_of(const ShapeText& text) {
+  const auto body = numbers_of(text, "body", 3);
+  if (!body) return tl::unexpected(body.error());
+  if (body->size() != 3) return base::fail("body: needs three numbers");
+  return drawing::shape_of_svg(word_of(text, "svg"), {{(*body)[0], (*body)[1]}, (*body)[2]});
+}
+
 base::Result<GeometryPointer> implicit_of(const ShapeText& text) {
   const auto corners = points_of(text, "box");
   if (!corners) return tl::unexpected(corners.error());
@@ -159,7 +168,14 @@ base::Result<std::optional<ShapeText>> shape_text(const world::Geometry& shape) 
                          {"creases", text_of(it.control.creases)},
                          {"corners", text_of(it.control.corners)}};
       },
-      [&](const world::Geometry&) -> Text {
+      [&](const world::Geometry& it) -> Text {
+        if (const auto* const drawn = drawing::drawing_in(it)) {
+          const drawing::DrawingBody& body = drawn->body();
+          return ShapeText{{"kind", kind},
+                           {"svg", drawing::svg_of(*drawn)},
+                           {"body", text_of(std::vector<Vector3>{
+                                        {body.heights.height, body.heights.height_by_width, body.sheet}})}};
+        }
         return base::fail(fmt::format("Shapes of the kind \"{}\" have no text.", kind));
       });
 }
@@ -170,6 +186,7 @@ base::Result<GeometryPointer> shape_from_text(const ShapeText& text) {
   if (kind == "csg") return csg_of(text);
   if (kind == "implicit") return implicit_of(text);
   if (kind == "loop") return loop_of(text);
+  if (kind == "drawing") return drawing_of(text);
   return base::fail(fmt::format("{} is not a kind of shape", io::quoted(kind)));
 }
 

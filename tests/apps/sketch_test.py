@@ -87,6 +87,52 @@ class SketchTest(ProgramTest):
         self.fails("sketch", "edit", out, "--apply", bad, "--out", self.folder / "x.svg", code=1, saying="bad.jsonl:2")
         self.assertFalse((self.folder / "x.svg").exists())
 
+    def drawing_design(self, *lines, name="paper.icome"):
+        """A design whose only object is the drawing that the lines of a script make."""
+        edits = self.write("make.jsonl", "".join(json.dumps(line) + "\n" for line in lines))
+        svg, design = self.folder / "paper.svg", self.folder / name
+        self.succeeds("sketch", "edit", "new", "--apply", edits, "--out", svg)
+        self.succeeds("sketch", "model", svg, design, "--drawing")
+        return design
+
+    def test_a_drawing_in_a_design_is_touched_drawn_on_and_kept(self):
+        design = self.drawing_design({"op": "draw", "way": [[20, 20], [120, 20]], "widest": 4})
+        self.assertEqual(json.loads(self.succeeds("info", design, "--json").stdout)["shapes"], {"drawing": 1})
+        self.succeeds("touch", design, "--check")
+        edits = self.write("more.jsonl", '{"op": "draw", "way": [[20, 60], [120, 90]]}\n{"op": "undo"}\n'
+                           '{"op": "draw", "way": [[20, 80], [120, 80]], "colour": "red"}\n')
+        for out in ("more.icome", "more.wrl", "more.glb", "more.svg"):
+            self.succeeds("sketch", "edit", design, "--apply", edits, "--out", self.folder / out)
+            strokes = json.loads(self.succeeds("sketch", "list", self.folder / out, "--json").stdout)["layers"][0]["strokes"]
+            self.assertEqual([[round(x, 1) for x in stroke["bounds"]] for stroke in strokes],
+                             [[20, 20, 120, 20], [20, 80, 120, 80]], out)
+        self.succeeds("sketch", "render", self.folder / "more.wrl", self.folder / "more.png")
+        self.fails("sketch", "edit", design, "--object", "papr", "--apply", edits, "--out", self.folder / "x.icome",
+                   code=1, saying="'paper'")
+        cube = self.write("cube.jsonl", '{"op": "create", "shape": "cube"}\n')
+        self.succeeds("edit", "new", "--apply", cube, "--out", self.folder / "cube.icome")
+        self.fails("sketch", "list", self.folder / "cube.icome", code=1, saying="no drawing")
+
+    def test_curves_of_a_drawing_are_swept(self):
+        design = self.drawing_design(
+            {"op": "draw", "way": [[100, 60], [160, 60], [160, 100], [100, 100]], "closed": True},
+            {"op": "draw", "way": [[10, 10], [20, 40]]})
+        edits = self.write("sweep.jsonl", '{"op": "extrude", "profile": "paper", "steps": [{"move": [0, 0, 0.01]}], '
+                           '"name": "slab"}\n'
+                           '{"op": "extrude", "profile": "paper", "open": true, "steps": [{"turn": [0, 10, 0], '
+                           '"repeat": 36}], "ends": "joined", "name": "lathe"}\n')
+        out = self.folder / "swept.icome"
+        self.succeeds("edit", design, "--apply", edits, "--out", out)
+        swept = json.loads(self.succeeds("info", out, "--json").stdout)
+        self.assertEqual((swept["objects"], swept["shapes"]["drawing"], swept["shapes"]["mesh"]), (3, 1, 2))
+        # The slab is 10 mm thick on the paper; the lathe's line is 138.5 mm from the axis at most.
+        self.assertAlmostEqual(swept["bounds"]["max"][2], 0.1385, delta=0.001)
+        self.assertAlmostEqual(swept["bounds"]["max"][0], 0.1485, delta=0.001)
+        for bad, saying in (('"which": 3', "number 3"), ('"open": true, "which": 2', "number 2")):
+            wrong = self.write("wrong.jsonl", '{"op": "extrude", "profile": "paper", "steps": [{"move": [0, 0, 1]}], '
+                               + bad + '}\n')
+            self.fails("edit", design, "--apply", wrong, "--out", self.folder / "x.icome", code=1, saying=saying)
+
     def test_what_is_wrong_is_named_with_its_line(self):
         for text, saying in [("a,b\n1,2\n", "s.csv:1"), (HEADER + "0,nan,0,1\n", "s.csv:2"),
                              (HEADER + "0,0,0,1\n1,0,0,2\n", "s.csv:3"), ("", "s.csv"), (HEADER, "s.csv")]:

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "collab/server/served_design.h"
+#include "drawing/shape/drawing_shape.h"
 #include "own_folder.h"
 #include "session/session_sharing.h"
 #include "session/sessions.h"
@@ -78,6 +79,49 @@ TEST_F(Sharing, ShowsToOthersWhatOneDoesAndUndoesOnesOwnOnly) {
   until_same();
   EXPECT_TRUE(bob_->world().find(leg));
   EXPECT_FALSE(ann_->files().modified()) << "the server has it";
+}
+
+/// A drawing of one layer, number 1, without a stroke.
+world::GeometryPointer empty_drawing() {
+  drawing::Drawing page;
+  page.layers.push_back({.id = page.next_layer_id(), .name = "Layer 1", .strokes = {}});
+  return *drawing::DrawingShape::create(std::move(page), {});
+}
+
+world::Edit stroke_edit(world::GeometryId id, std::uint64_t number) {
+  auto stroke = std::make_shared<drawing::Stroke>();
+  stroke->id = drawing::StrokeId{number};
+  stroke->curve.segments = {drawing::CubicBezier::line({0.01, 0.01 * double(number)}, {0.1, 0.05})};
+  stroke->curve.widths = {{0.0, 0.001, 1.0, 0.002}};
+  return world::AmendGeometry{
+      id, drawing::edit_bytes(drawing::edit_of(drawing::PutStroke{drawing::LayerId{1}, 0, stroke}))};
+}
+
+TEST_F(Sharing, SendsStrokesOfADrawingToAllAndTakesThemBack) {
+  const auto id = ann_->ids().next<world::GeometryId>();
+  const auto object = ann_->ids().next<ObjectId>();
+  world::EditGroup group;
+  group.edits.push_back(world::CreateGeometry{id, empty_drawing()});
+  group.edits.push_back(world::CreateObject{object, 0, {.name = "paper", .geometry = id}});
+  ASSERT_TRUE(ann_->history().perform(world::Edit(std::move(group)), "Add paper"));
+  until_same();
+  const auto strokes = [&](const Session& session) {
+    return drawing::drawing_in(*session.world().find(id)->shape)->drawing().stroke_count();
+  };
+  ASSERT_TRUE(ann_->history().perform(stroke_edit(id, 2), "Draw"));
+  until_same();
+  EXPECT_EQ(strokes(*bob_), 1U);
+  ASSERT_TRUE(bob_->history().perform(stroke_edit(id, 3), "Draw"));
+  until_same();
+  EXPECT_EQ(strokes(*ann_), 2U);
+  ASSERT_TRUE(ann_->history().undo());
+  until_same();
+  EXPECT_EQ(strokes(*bob_), 1U) << "Ann's stroke is gone, Bob's stays";
+  EXPECT_EQ(drawing::drawing_in(*ann_->world().find(id)->shape)->drawing().layers[0].strokes[0]->id.value,
+            3U);
+  ann_->select({object});
+  until([&] { return bob_->sharing().holder_of(object).has_value(); });
+  EXPECT_FALSE(bob_->history().perform(stroke_edit(id, 4), "Draw")) << "Ann holds the paper";
 }
 
 TEST_F(Sharing, HoldsWhatIsSelected) {

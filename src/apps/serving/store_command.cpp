@@ -8,6 +8,7 @@
 #include "collab/server/room.h"
 #include "collab/storage/store.h"
 #include "collab/storage/store_care.h"
+#include "drawing/shape/every_kind.h"
 #include "files/design_files.h"
 
 namespace icome::apps {
@@ -46,7 +47,7 @@ base::Result<world::World> logged_world(collab::OpLog& log, const std::string& d
         fmt::format("there is no design \"{}\" in this store; icome store list names them.", design));
   const auto start = collab::read_start(log, **row, 1);
   if (!start) return tl::unexpected(start.error());
-  const world::GeometryFactory factory;
+  const world::GeometryFactory factory = drawing::every_kind_of_shape();
   const auto room = collab::Room::open(*start, {}, factory);
   if (!room) return tl::unexpected(room.error());
   return (*room)->world();

@@ -31,10 +31,13 @@ int run_sketch_model(const SketchOptions& options) {
   if (const auto able = files::check_can_write(options.out); !able) return sketch_failed(able.error());
   const auto read = read_for_sketch(options);
   if (!read) return sketch_failed(read.error());
-  const auto design = sketch::relief_of(read->drawing, {.height = options.height_mm / kMillimetresOfMetre,
-                                                        .height_by_width = options.height_by_width,
-                                                        .sheet = options.sheet_mm / kMillimetresOfMetre,
-                                                        .paper = *paper});
+  const sketch::ReliefSettings settings = {
+      .heights = {options.height_mm / kMillimetresOfMetre, options.height_by_width},
+      .sheet = options.sheet_mm / kMillimetresOfMetre,
+      .paper = *paper};
+  const auto design = options.as_drawing
+                          ? sketch::drawing_design_of(read->drawing, settings, options.in.stem().string())
+                          : sketch::relief_of(read->drawing, settings);
   if (!design) return sketch_failed({fmt::format("{}: {}", options.in.string(), design.error().message)});
   const auto remarks = files::write_design(options.out, *design);
   if (!remarks) return sketch_failed(remarks.error());

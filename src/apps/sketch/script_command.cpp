@@ -11,6 +11,7 @@
 #include "apps/sketch/sketch_work.h"
 #include "apps/status_line.h"
 #include "apps/terminal.h"
+#include "files/design_files.h"
 #include "sketch/script/sketch_tool.h"
 
 namespace icome::apps {
@@ -23,6 +24,41 @@ int list_sketch_tools(const SketchOptions& options) {
   for (const sketch::SketchTool& tool : sketch::sketch_tools()) all.push_back(&tool.about);
   const auto list = operation_list(all, "tool", options.tool, options.json);
   return list ? print_answer(*list) : sketch_failed(list.error());
+}
+
+/// A drawing that is to be changed, and the design that it is in, if it is in one.
+struct EditedDrawing {
+  drawing::DrawingRead read;
+  std::optional<DesignDrawing> home;
+};
+
+base::Result<EditedDrawing> read_to_edit(const SketchOptions& options) {
+  if (!names_design(options.in)) {
+    auto read = read_for_sketch(options);
+    if (!read) return tl::unexpected(read.error());
+    return EditedDrawing{std::move(*read), std::nullopt};
+  }
+  auto home = read_design_drawing(options.in, options.object);
+  if (!home) return tl::unexpected(home.error());
+  drawing::DrawingRead read{home->drawing(), notes_of(*home)};
+  return EditedDrawing{std::move(read), std::move(*home)};
+}
+
+base::Result<void> check_can_write_edited(const SketchOptions& options) {
+  if (!names_design(options.out)) return sketch::check_can_write_drawing(options.out);
+  if (names_design(options.in)) return {};
+  return base::fail(fmt::format("{}: the drawing is not in a design: icome sketch model makes one of it",
+                                options.out.string()));
+}
+
+base::Result<void> write_edited(const SketchOptions& options, const EditedDrawing& edited,
+                                const drawing::Drawing& drawing) {
+  if (!names_design(options.out))
+    return sketch::write_drawing(drawing, options.out, picture_options(options), svg_lines(options));
+  const auto remarks = files::write_design(options.out, edited.home->design.world);
+  if (!remarks) return tl::unexpected(remarks.error());
+  for (const files::Remark& remark : *remarks) tell(remark.text);
+  return {};
 }
 
 std::string edit_report_json(const SketchOptions& options, const EditOutcome& outcome,
@@ -63,15 +99,16 @@ std::string edit_report_text(const SketchOptions& options, const EditOutcome& ou
 
 int run_sketch_edit(const SketchOptions& options) {
   if (options.help_tools) return list_sketch_tools(options);
-  if (const auto able = sketch::check_can_write_drawing(options.out); !able)
-    return sketch_failed(able.error());
+  if (const auto able = check_can_write_edited(options); !able) return sketch_failed(able.error());
   const auto script = script_text(options.apply);
   if (!script) return sketch_failed(script.error());
-  const auto read = read_for_sketch(options);
-  if (!read) return sketch_failed(read.error());
-  for (const std::string& note : read->notes) tell(note);
+  auto edited = read_to_edit(options);
+  if (!edited) return sketch_failed(edited.error());
+  for (const std::string& note : edited->read.notes) tell(note);
   StatusLine status;
-  sketch::SketchRunner runner(read->drawing);
+  sketch::SketchRunner runner(edited->read.drawing);
+  if (edited->home)
+    runner.set_sink([&](const drawing::DrawingEdit& it) { return edited->home->perform(it); });
   const auto perform = [&](const interaction::Value& command,
                            std::size_t) -> base::Result<interaction::Performed> {
     auto note = runner.perform(command);
@@ -88,9 +125,8 @@ int run_sketch_edit(const SketchOptions& options) {
   for (const EditError& error : outcome.errors)
     tell(fmt::format("{}:{}: {}", options.apply.string(), error.line, error.message));
   if (good) {
-    const auto written =
-        sketch::write_drawing(runner.drawing(), options.out, picture_options(options), svg_lines(options));
-    if (!written) return sketch_failed(written.error());
+    if (const auto written = write_edited(options, *edited, runner.drawing()); !written)
+      return sketch_failed(written.error());
   } else {
     tell(options.out.string() + " was not written.");
   }

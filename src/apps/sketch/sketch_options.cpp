@@ -77,6 +77,8 @@ constexpr const char* kModelNotes =
     "  icome sketch model drawing.svg drawing.wrl\n"
     "  icome touch drawing.wrl --check              feel it\n"
     "  icome sketch model strokes.csv strokes.stl --height 0.3 --height-by-width 0.5 --sheet 2\n"
+    "  icome sketch model drawing.svg drawing.icome --drawing\n"
+    "  icome sketch edit drawing.icome --apply edits.jsonl --out drawing.icome\n"
     "\n"
     "Each line becomes a ridge in its colour, each fill a flatter one, on a sheet that feels as --paper "
     "says;\n"
@@ -136,6 +138,11 @@ void add_fit_options(CLI::App& command, SketchFitOptions& fit) {
       ->check(number_range(0.0, 1000.0));
 }
 
+void add_object_option(CLI::App& command, SketchOptions& options) {
+  command.add_option("--object", options.object, "The drawing in a design (default: the only one)")
+      ->type_name("NAME");
+}
+
 void add_lines_option(CLI::App& command, SketchOptions& options) {
   command.add_flag("--centre-lines", options.centre_lines,
                    "In SVG files, write lines with a width instead of their outlines");
@@ -176,7 +183,9 @@ void add_sketch(CLI::App& app, SketchOptions& options) {
   add_lines_option(fit, options);
   CLI::App& render =
       add_task(sketch, "render", "Make a picture of a drawing or of strokes", kRenderNotes, options);
-  render.add_option("IN", options.in, "An SVG file, or a recording of a pen")->type_name("")->required();
+  render.add_option("IN", options.in, "An SVG file, a design with a drawing, or a recording of a pen")
+      ->type_name("")
+      ->required();
   render.add_option("OUT", options.out, "The picture: .png, .svg or .pdf")->type_name("")->required();
   render.add_option("--size", options.size, "Pixels along the longer side of a PNG file (default 1200)")
       ->type_name("PIXELS")
@@ -189,16 +198,19 @@ void add_sketch(CLI::App& app, SketchOptions& options) {
   render.add_option("--background", options.background, "white or none (default white)")
       ->type_name("white|none")
       ->check(CLI::IsMember({"white", "none"}));
+  add_object_option(render, options);
   add_fit_options(render, options.fit);
   add_lines_option(render, options);
   CLI::App& edit =
       add_task(sketch, "edit", "Change a drawing by a script: each line is a tool with its parameters",
                kEditNotes, options);
-  edit.add_option("IN", options.in, "new, an SVG file, or a recording of a pen")->type_name("");
+  edit.add_option("IN", options.in, "new, an SVG file, a design with a drawing, or a recording of a pen")
+      ->type_name("");
   auto* const apply = edit.add_option("--apply", options.apply, "Tools, one a line; - for standard input");
   apply->type_name("EDITS.jsonl");
-  auto* const out = edit.add_option("--out", options.out, "Write the drawing")->type_name("OUT.svg|png|pdf");
+  auto* const out = edit.add_option("--out", options.out, "Write the drawing")->type_name("OUT");
   edit.add_flag("--keep-going", options.keep_going, "Go on after lines that are wrong");
+  add_object_option(edit, options);
   add_fit_options(edit, options.fit);
   add_lines_option(edit, options);
   auto* const help_tools =
@@ -229,7 +241,9 @@ void add_sketch(CLI::App& app, SketchOptions& options) {
   CLI::App& model =
       add_task(sketch, "model", "Make a design of a drawing, to be touched: a ridge for each line",
                kModelNotes, options);
-  model.add_option("IN", options.in, "An SVG file, or a recording of a pen")->type_name("")->required();
+  model.add_option("IN", options.in, "An SVG file, a design with a drawing, or a recording of a pen")
+      ->type_name("")
+      ->required();
   model.add_option("OUT", options.out, "The design")->type_name("")->required();
   model.add_option("--height", options.height_mm, "Of every line (default 0.5)")
       ->type_name("MM")
@@ -239,6 +253,8 @@ void add_sketch(CLI::App& app, SketchOptions& options) {
                   "More, for each mm of its greatest width (default 0)")
       ->type_name("MM")
       ->check(number_range(0.0, 10.0));
+  model.add_flag("--drawing", options.as_drawing,
+                 "One object that can be drawn on and extruded, not a mesh for each line");
   model.add_option("--sheet", options.sheet_mm, "Thickness of the paper below, 0 for none (default 1)")
       ->type_name("MM")
       ->check(number_range(0.0, 1000.0));
@@ -246,9 +262,13 @@ void add_sketch(CLI::App& app, SketchOptions& options) {
       .add_option("--paper", options.paper,
                   "How the sheet feels: paper, blackboard, canvas or glass (default paper)")
       ->type_name("NAME");
+  add_object_option(model, options);
   add_fit_options(model, options.fit);
   CLI::App& list = add_task(sketch, "list", "List the layers and strokes of a drawing", kListNotes, options);
-  list.add_option("IN", options.in, "An SVG file, or a recording of a pen")->type_name("")->required();
+  list.add_option("IN", options.in, "An SVG file, a design with a drawing, or a recording of a pen")
+      ->type_name("")
+      ->required();
+  add_object_option(list, options);
   add_fit_options(list, options.fit);
 }
 

@@ -28,6 +28,7 @@ struct SketchOptions {
   std::filesystem::path in;
   std::filesystem::path out;
   std::filesystem::path apply;  // edit: tools, one a line; "-": standard input
+  std::string object;           // the drawing in a design; empty: the only one
   SketchFitOptions fit;
   std::string paper = "paper";       // feel, model: what is drawn on
   bool eraser = false;               // feel: an eraser in place of a pen
@@ -35,6 +36,7 @@ struct SketchOptions {
   double rate_hz = 1000.0;           // feel: of the servo
   std::filesystem::path trace;       // feel: what every tick did
   double height_mm = 0.5;            // model: of every line
+  bool as_drawing = false;           // model: one object that can be drawn on
   double height_by_width = 0.0;      // model: for its greatest width, beside it
   double sheet_mm = 1.0;             // model: thickness of the paper, 0 for none
   std::string page = "auto";         // render: auto, paper or drawing

@@ -40,6 +40,12 @@ std::string how_many(std::size_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+std::vector<std::string> notes_of(const DesignDrawing& read) {
+  std::vector<std::string> notes;
+  for (const files::Remark& remark : read.design.remarks) notes.push_back(remark.text);
+  return notes;
+}
+
 base::Result<drawing::DrawingRead> read_for_sketch(const SketchOptions& options) {
   if (options.in == "new") {
     drawing::DrawingRead empty;
@@ -48,6 +54,11 @@ base::Result<drawing::DrawingRead> read_for_sketch(const SketchOptions& options)
   }
   StatusLine status;
   status.say("Reading " + options.in.string());
+  if (names_design(options.in)) {
+    const auto read = read_design_drawing(options.in, options.object);
+    if (!read) return tl::unexpected(read.error());
+    return drawing::DrawingRead{read->drawing(), notes_of(*read)};
+  }
   return sketch::read_drawing(options.in, options.fit.settings());
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 #include <string>
+#include <vector>
 
+#include "apps/sketch/design_drawing.h"
 #include "apps/sketch/sketch_options.h"
 #include "base/result.h"
 #include "sketch/files/drawing_files.h"
@@ -25,7 +27,11 @@ std::size_t count_segments(const drawing::Drawing& drawing);
 /// "1 stroke", "2 strokes".
 std::string how_many(std::size_t count, const char* what);
 
-/// The drawing to begin with: an empty page for "new", an SVG file, or the curves of a recording.
+/// What reading the design remarked.
+std::vector<std::string> notes_of(const DesignDrawing& read);
+
+/// The drawing to begin with: an empty page for "new", an SVG file, a drawing in a design, or the curves of a
+/// recording.
 base::Result<drawing::DrawingRead> read_for_sketch(const SketchOptions& options);
 
 }  // namespace icome::apps

@@ -14,6 +14,7 @@
 #include "collab/content/content_fetcher.h"
 #include "collab/link/link_loop.h"
 #include "collab/protocol/address.h"
+#include "drawing/shape/every_kind.h"
 
 namespace icome::collab {
 
@@ -63,7 +64,8 @@ using Seen = std::variant<SeenEdit, SeenDurable, SeenState, Dropped, Selected, F
 class Conversation {
  public:
   /// `cache` keeps the contents that come in; null: each is fetched whenever it is needed.
-  Conversation(DesignAddress address, ClientIdentity identity, world::GeometryFactory factory = {},
+  Conversation(DesignAddress address, ClientIdentity identity,
+               world::GeometryFactory factory = drawing::every_kind_of_shape(),
                ContentCachePointer cache = nullptr);
 
   // ---- the connection

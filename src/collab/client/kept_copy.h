@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "collab/protocol/message.h"
+#include "drawing/shape/every_kind.h"
 #include "world/edit/edit.h"
 #include "world/shape/geometry_factory.h"
 #include "world/world.h"
@@ -39,7 +40,7 @@ struct KeptCopy {
 
 base::Result<std::string> to_bytes(const KeptCopy& copy);
 /// Fails for bytes that are no such copy.
-base::Result<KeptCopy> kept_copy_from_bytes(std::string_view bytes,
-                                            const world::GeometryFactory& factory = {});
+base::Result<KeptCopy> kept_copy_from_bytes(
+    std::string_view bytes, const world::GeometryFactory& factory = drawing::every_kind_of_shape());
 
 }  // namespace icome::collab

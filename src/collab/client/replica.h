@@ -11,6 +11,7 @@
 #include "collab/client/kept_copy.h"
 #include "collab/order/items.h"
 #include "collab/protocol/message.h"
+#include "drawing/shape/every_kind.h"
 #include "world/edit/edit.h"
 #include "world/shape/geometry_factory.h"
 
@@ -34,7 +35,8 @@ struct Dropped {
 /// lost.
 class Replica {
  public:
-  explicit Replica(world::GeometryFactory factory = {}) : factory_(std::move(factory)) {}
+  explicit Replica(world::GeometryFactory factory = drawing::every_kind_of_shape())
+      : factory_(std::move(factory)) {}
 
   const world::World& world() const { return world_; }
   /// Sequence of the last ordered edit in it.

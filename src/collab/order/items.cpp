@@ -36,6 +36,7 @@ struct NoteTouched {
   void operator()(const world::DeleteGeometry& it) const { note(it.id, Aspect::Existence); }
   void operator()(const world::ReplaceGeometry& it) const { note(it.id, Aspect::Content); }
   void operator()(const world::MoveVertices& it) const { note(it.id, Aspect::Content); }
+  void operator()(const world::AmendGeometry& it) const { note(it.id, Aspect::Content); }
   void operator()(const world::CreateMaterial& it) const { note(it.id, Aspect::Existence); }
   void operator()(const world::DeleteMaterial& it) const { note(it.id, Aspect::Existence); }
   void operator()(const world::ChangeMaterial& it) const { note(it.id, Aspect::Content); }
@@ -116,6 +117,7 @@ struct EditWord {
   std::string operator()(const world::DeleteGeometry&) const { return "delete shape"; }
   std::string operator()(const world::ReplaceGeometry&) const { return "change shape"; }
   std::string operator()(const world::MoveVertices&) const { return "move vertices"; }
+  std::string operator()(const world::AmendGeometry&) const { return "change shape"; }
   std::string operator()(const world::CreateMaterial&) const { return "create material"; }
   std::string operator()(const world::DeleteMaterial&) const { return "delete material"; }
   std::string operator()(const world::ChangeMaterial&) const { return "change material"; }

@@ -16,6 +16,7 @@
 #include "collab/server/log_thread.h"
 #include "collab/server/relays.h"
 #include "collab/storage/store.h"
+#include "drawing/shape/every_kind.h"
 #include "io/open_file.h"
 
 namespace icome::collab {
@@ -98,7 +99,7 @@ class DesignServer final : private LinkEvents, private RelayEvents {
   std::filesystem::path folder_;  // of its files
   std::string shown_store_;
   io::OpenFile lock_;
-  world::GeometryFactory factory_;
+  world::GeometryFactory factory_ = drawing::every_kind_of_shape();
   std::unique_ptr<LinkLoop> loop_;
   Hub hub_;
   Relays relays_;

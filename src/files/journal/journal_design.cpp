@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "drawing/shape/every_kind.h"
 #include "files/journal/journal.h"
 #include "files/journal/journal_lost.h"
 #include "files/journal/journal_replay.h"
@@ -19,7 +20,7 @@ base::Result<LoadedDesign> read_journal_design(const std::filesystem::path& path
   const auto file = io::OpenFile::open(path, io::OpenFile::Use::Read);
   if (!file) return tl::unexpected(file.error());
   if (!error) memory.add_file(size);
-  auto journal = replay_journal(*file, world::GeometryFactory(), options.progress, &memory);
+  auto journal = replay_journal(*file, drawing::every_kind_of_shape(), options.progress, &memory);
   if (!journal) return tl::unexpected(journal.error());
   JournalReport& report = journal->report;
   if (const auto kept = keep_what_is_lost(*file, report); !kept) {

@@ -4,8 +4,8 @@
 
 namespace icome::files {
 
-// A journal (journal.h) as one of the formats of designs: with the built-in kinds of shapes, read without
-// changes, and written as a snapshot.
+// A journal (journal.h) as one of the formats of designs: with all kinds of shapes that the project has, read
+// without changes, and written as a snapshot.
 
 base::Result<LoadedDesign> read_journal_design(const std::filesystem::path& path,
                                                const DesignReadOptions& options, io::MemoryBudget& memory);

@@ -67,6 +67,10 @@ inline constexpr VrmlProto kImplicitProto = {"IcomeImplicit", R"(  field SFStrin
   field SFString box ""
 )"};
 
+inline constexpr VrmlProto kDrawingProto = {"IcomeDrawing", R"(  field SFString svg ""
+  field SFString body ""
+)"};
+
 /// Read, never written: a saved design holds the triangles of its meshes.
 inline constexpr VrmlProto kMeshProto = {"IcomeMesh", R"(  field MFString url []
   field SFFloat unit 1

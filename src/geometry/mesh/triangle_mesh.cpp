@@ -54,4 +54,11 @@ std::vector<Vector3> vertex_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
+void append(TriangleMesh& mesh, const TriangleMesh& other) {
+  const auto first = std::uint32_t(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+  mesh.triangles.reserve(mesh.triangles.size() + other.triangles.size());
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+}
+
 }  // namespace icome::geometry

@@ -41,4 +41,7 @@ double surface_area(const TriangleMesh& mesh);
 /// at the vertex (Thuermer and Wuethrich 1998). Zero where a vertex has no triangle.
 std::vector<Vector3> vertex_normals(const TriangleMesh& mesh);
 
+/// Adds the vertices and triangles of another mesh behind those that are there; nothing is welded.
+void append(TriangleMesh& mesh, const TriangleMesh& other);
+
 }  // namespace icome::geometry

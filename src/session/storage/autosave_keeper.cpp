@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "drawing/shape/every_kind.h"
 #include "session/storage/autosave_files.h"
 
 namespace icome::session {
@@ -129,7 +130,7 @@ base::Result<void> AutosaveKeeper::make_journal() {
   base::Result<void> result;
   for (int i = 0; i < kTries; ++i) {
     const std::filesystem::path path = new_autosave_journal(settings_.folder);
-    auto journal = JournaledWorld::open(path, world::GeometryFactory(), {.create = true});
+    auto journal = JournaledWorld::open(path, drawing::every_kind_of_shape(), {.create = true});
     if (journal) {
       journal_.emplace(std::move(*journal));
       return {};

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <thread>
 
+#include "drawing/shape/every_kind.h"
 #include "files/journal/journal.h"
 #include "session/storage/autosave_files.h"
 
@@ -40,7 +41,7 @@ base::Result<std::shared_ptr<ClaimedWork>> ClaimedWork::claim(const RecoverableW
 }
 
 base::Result<files::LoadedDesign> ClaimedWork::read(const files::DesignReadOptions& options) {
-  auto journal = files::read_journal(work_.journal, world::GeometryFactory(), options.progress);
+  auto journal = files::read_journal(work_.journal, drawing::every_kind_of_shape(), options.progress);
   if (!journal) return tl::unexpected(journal.error());
   files::LoadedDesign design{std::move(journal->world), "recovered work", std::move(journal->report.damage)};
   has_more_ = journal->report.lost_bytes > 0 && !journal->report.is_torn;

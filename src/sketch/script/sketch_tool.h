@@ -50,6 +50,8 @@ class SketchRunner {
   /// Applies an edit that was made elsewhere, such as at the end of a drag, as one step to undo. Fails as
   /// apply_edit().
   base::Result<void> perform(const DrawingEdit& edit) { return history_.perform(edit); }
+  /// Hears each edit that is applied, and may refuse it (DrawingHistory::Sink).
+  void set_sink(DrawingHistory::Sink sink) { history_.set_sink(std::move(sink)); }
 
  private:
   base::Result<std::string> use(const SketchTool& tool, const interaction::Value::Fields& fields);

@@ -123,6 +123,7 @@ void fill_object_menu(QMenu& menu, session::Session& session, const ObjectMenu& 
   add_floor(menu, session, entries);
   if (entries.zoom) menu.addAction(icon(Icon::ZoomToSelection), "&Zoom to", &menu, entries.zoom);
   if (entries.rename) menu.addAction(icon(Icon::Rename), "&Rename", &menu, entries.rename);
+  if (entries.draw) menu.addAction("Dra&w on It\u2026", &menu, entries.draw);
   if (entries.picture) menu.addAction("Put a &Picture On\u2026", &menu, entries.picture);
   menu.addSeparator();
   add_duplicates(menu, session, entries);

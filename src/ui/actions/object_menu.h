@@ -29,6 +29,7 @@ struct ObjectMenu {
   std::function<void()> zoom = {};     // none: not offered
   std::function<void()> rename = {};   // none: not offered
   std::function<void()> picture = {};  // lets a person choose a picture for them; none: not offered
+  std::function<void()> draw = {};     // opens the selected drawing; none: not offered
   std::function<void(const std::string&)> refused = {};
 };
 /// Adds the actions that suit the selection; none where nothing is selected.

@@ -14,14 +14,19 @@ drawing::Drawing empty_page() {
   return page;
 }
 
-/// Is it the same drawing, stroke by stroke? Undo brings back the very strokes that there were.
+bool is_same_stroke(const drawing::StrokePointer& a, const drawing::StrokePointer& b) {
+  return a == b || *a == *b;
+}
+
+/// Is it the same drawing, stroke by stroke?
 bool is_same(const drawing::Drawing& a, const drawing::Drawing& b) {
-  return a.size == b.size && std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
-                                        [](const drawing::Layer& one, const drawing::Layer& other) {
-                                          return one.id == other.id && one.name == other.name &&
-                                                 one.visible == other.visible && one.locked == other.locked &&
-                                                 one.strokes == other.strokes;
-                                        });
+  return a.size == b.size &&
+         std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
+                    [](const drawing::Layer& one, const drawing::Layer& other) {
+                      return one.id == other.id && one.name == other.name && one.visible == other.visible &&
+                             one.locked == other.locked &&
+                             std::ranges::equal(one.strokes, other.strokes, is_same_stroke);
+                    });
 }
 
 }  // namespace
@@ -35,6 +40,13 @@ void SketchDocument::take(drawing::Drawing drawing) {
   tried_.reset();
   trying_.clear();
   index_.reset();
+  if (!home_) return;
+  runner_->set_sink([this](const drawing::DrawingEdit& edit) {
+    sending_ = true;
+    const auto done = home_->edit(edit);
+    sending_ = false;
+    return done;
+  });
 }
 
 drawing::LayerId SketchDocument::layer() const {
@@ -104,11 +116,15 @@ void SketchDocument::give_up() {
   changed_();
 }
 
-bool SketchDocument::is_modified() const { return is_foreign_ || !is_same(saved_, drawing()); }
+bool SketchDocument::is_modified() const {
+  if (home_) return false;
+  return is_foreign_ || !is_same(saved_, drawing());
+}
 
 base::Result<std::vector<std::string>> SketchDocument::open(const std::filesystem::path& file) {
   auto read = sketch::read_drawing(file, {});
   if (!read) return tl::unexpected(read.error());
+  home_.reset();
   take(std::move(read->drawing));
   is_foreign_ = !sketch::check_can_write_drawing(file);
   file_ = is_foreign_ ? std::filesystem::path() : file;
@@ -116,9 +132,40 @@ base::Result<std::vector<std::string>> SketchDocument::open(const std::filesyste
   return std::move(read->notes);
 }
 
+void SketchDocument::open(DrawingHome home) {
+  const drawing::DrawingShape* const shape = home.shape();
+  if (!shape) return;
+  home_ = std::move(home);
+  file_.clear();
+  is_foreign_ = false;
+  take(shape->drawing());
+  changed_();
+}
+
+void SketchDocument::follow_home() {
+  if (!home_ || sending_) return;
+  const drawing::DrawingShape* const shape = home_->shape();
+  if (!shape) return leave_home();
+  if (is_same(shape->drawing(), drawing())) return;
+  take(shape->drawing());
+  changed_();
+  remark_("The drawing was changed in its design.");
+}
+
+void SketchDocument::leave_home() {
+  if (!home_) return;
+  const std::string name = home_->name;
+  home_.reset();
+  runner_->set_sink({});
+  is_foreign_ = true;
+  changed_();
+  remark_("\"" + name + "\" is no longer in the design: what you draw stays here alone.");
+}
+
 base::Result<void> SketchDocument::save(const std::filesystem::path& file) {
   auto written = sketch::write_drawing(drawing(), file, {}, drawing::SvgLines::Outlines);
   if (!written) return written;
+  if (home_) return {};  // a copy
   saved_ = drawing();
   file_ = file;
   is_foreign_ = false;

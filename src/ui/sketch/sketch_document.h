@@ -5,11 +5,19 @@
 #include <optional>
 #include <string>
 
+#include "drawing/shape/drawing_shape.h"
 #include "sketch/files/drawing_files.h"
 #include "sketch/script/sketch_tool.h"
 #include "sketch/tools/pick.h"
 
 namespace icome::ui {
+
+/// The place in a design where the drawing of a window lives: each edit goes there at once.
+struct DrawingHome {
+  std::string name;                                     ///< of the object, for people
+  std::function<const drawing::DrawingShape*()> shape;  ///< null: it is gone
+  std::function<base::Result<void>(const drawing::DrawingEdit&)> edit;
+};
 
 /// The drawing of a window: what was done to it, its file, and what a drag tries out. All changes go through
 /// sketch::SketchRunner, as those of a script do.
@@ -49,6 +57,16 @@ class SketchDocument {
   bool is_modified() const;
   /// Replaces the drawing by a file's. Gives notes on what was skipped in it.
   base::Result<std::vector<std::string>> open(const std::filesystem::path& file);
+  /// Replaces the drawing by one that lives in a design.
+  void open(DrawingHome home);
+  /// Takes over what others did to the drawing in its design, after which nothing can be undone here. A
+  /// drawing that is gone there stays here, and lives on its own.
+  void follow_home();
+  /// Lets the drawing live on its own.
+  void leave_home();
+  bool lives_in_design() const { return home_.has_value(); }
+  /// The name of the object whose drawing it is; empty for one that lives on its own.
+  std::string home_name() const { return home_ ? home_->name : std::string(); }
   /// Writes the drawing as SVG; the file is then the document's own.
   base::Result<void> save(const std::filesystem::path& file);
 
@@ -67,6 +85,8 @@ class SketchDocument {
   drawing::DrawingEdit trying_;               // what made it of the drawing
   drawing::Drawing saved_;                    // as the file has it
   std::optional<sketch::StrokeIndex> index_;  // none: not made since the last change
+  std::optional<DrawingHome> home_;           // none: it lives on its own
+  bool sending_ = false;                      // an edit of one's own to its home
   std::filesystem::path file_;                // empty: it has none
   bool is_foreign_ = false;                   // read from a recording, which cannot hold it
   std::function<void()> changed_ = [] {};

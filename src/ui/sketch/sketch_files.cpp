@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ui/actions/recent_files.h"
+#include "ui/panels/object_look.h"
 
 namespace icome::ui {
 namespace {
@@ -35,6 +36,7 @@ QStringList sketch_open_filters() {
 }
 
 QString SketchFiles::name() const {
+  if (document_.lives_in_design()) return shortened(one_line(document_.home_name())) + " (in the design)";
   return document_.file().empty() ? QString("Untitled drawing") : text_of(document_.file().filename());
 }
 
@@ -72,6 +74,11 @@ void SketchFiles::save_to(const std::filesystem::path& file) {
 }
 
 void SketchFiles::save() {
+  if (document_.lives_in_design()) {
+    return tell_(
+        {.text = "The drawing is kept in the design, which the main window saves. Save As writes a copy.",
+         .topic = "file"});
+  }
   if (document_.file().empty()) return save_as();
   save_to(document_.file());
 }

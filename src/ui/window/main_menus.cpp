@@ -101,6 +101,7 @@ void MainWindow::make_menus() {
   operations_.fill(*model, *edit);
   model->addSeparator();
   pictures_.fill(*model);
+  drawings_.fill(*model->addMenu("&Drawing"));
   moves_.fill(*model->addMenu("&Moving"), *this);
   QMenu* view = menuBar()->addMenu("&View");
   views_.fill(*view);
@@ -275,11 +276,13 @@ void MainWindow::show_scene_menu(QPointF at) {
   auto* menu = new QMenu(this);
   menu->setObjectName("scene.menu");
   menu->setAttribute(Qt::WA_DeleteOnClose);
-  fill_object_menu(*menu, session_,
-                   {.zoom = [this] { zoom_to_selection(session_, tools_.aspect()); },
-                    .rename = [this] { tree_->rename(); },
-                    .picture = [this] { pictures_.choose(); },
-                    .refused = [this](const std::string& why) { tell_error(why); }});
+  fill_object_menu(
+      *menu, session_,
+      {.zoom = [this] { zoom_to_selection(session_, tools_.aspect()); },
+       .rename = [this] { tree_->rename(); },
+       .picture = [this] { pictures_.choose(); },
+       .draw = drawings_.selected() ? [this] { drawings_.draw_on_selected(); } : std::function<void()>(),
+       .refused = [this](const std::string& why) { tell_error(why); }});
   menu->addSeparator();
   menu->addAction(views_.home());
   menu->popup(scene_->mapToGlobal(at.toPoint()));

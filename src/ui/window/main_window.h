@@ -5,6 +5,7 @@
 #include <QTimer>
 
 #include "session/session.h"
+#include "ui/actions/drawing_actions.h"
 #include "ui/actions/edit_actions.h"
 #include "ui/actions/file_actions.h"
 #include "ui/actions/menu_actions.h"
@@ -101,6 +102,7 @@ class MainWindow final : public QMainWindow {
   TechniqueActions techniques_;
   MoveActions moves_;
   PictureActions pictures_;
+  DrawingActions drawings_;
   MenuActions haptic_menu_;
   session::Conversation conversation_;
   Banner* banner_ = nullptr;

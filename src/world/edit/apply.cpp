@@ -175,6 +175,17 @@ class EditApplier {
     return Edit(MoveVertices{it.id, it.vertices, std::move(moved->before)});
   }
 
+  Result<Edit> operator()(const AmendGeometry& it) {
+    const auto found = world_.geometries_.find(it.id);
+    if (found == world_.geometries_.end()) return gone("shape");
+    GeometryPointer& shape = found->second.shape;
+    if (!permitted(shape->bytes())) return not_permitted();
+    auto amended = shape->amended(it.change);
+    if (!amended) return tl::unexpected(amended.error());
+    shape = std::move(amended->shape);
+    return Edit(AmendGeometry{it.id, std::move(amended->back)});
+  }
+
   Result<Edit> operator()(const CreateMaterial& it) {
     if (const auto fresh = check_new(it.id, world_.materials_, "material"); !fresh)
       return tl::unexpected(fresh.error());

@@ -84,6 +84,13 @@ struct MoveVertices {
   std::vector<Vector3> positions;  // m, the shape's frame; one per vertex
 };
 
+/// Makes a change that only the shape's kind understands (Geometry::amended), for all objects that share it:
+/// a stroke more in a drawing.
+struct AmendGeometry {
+  GeometryId id;
+  std::string change;  // bytes
+};
+
 struct CreateMaterial {
   MaterialId id;
   Material material;
@@ -143,9 +150,9 @@ struct EditGroup {
 struct Edit {
   using What = std::variant<CreateObject, DeleteObject, MoveObject, PlaceObject, RenameObject, ChooseGeometry,
                             ChooseMaterial, ChangeFixture, ChangeMotion, CreateGeometry, CopyGeometry,
-                            DeleteGeometry, ReplaceGeometry, MoveVertices, CreateMaterial, DeleteMaterial,
-                            ChangeMaterial, CreateTexture, DeleteTexture, CreateScene, DeleteScene,
-                            RenameScene, EnterScene, LeaveScene, ReserveIds, EditGroup>;
+                            DeleteGeometry, ReplaceGeometry, MoveVertices, AmendGeometry, CreateMaterial,
+                            DeleteMaterial, ChangeMaterial, CreateTexture, DeleteTexture, CreateScene,
+                            DeleteScene, RenameScene, EnterScene, LeaveScene, ReserveIds, EditGroup>;
 
   template <typename Kind,
             typename = std::enable_if_t<std::conjunction_v<

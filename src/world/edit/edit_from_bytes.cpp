@@ -83,6 +83,8 @@ class EditReader {
         return make(*from.what_as_ReplaceGeometry());
       case flat::What::MoveVertices:
         return make(*from.what_as_MoveVertices());
+      case flat::What::AmendGeometry:
+        return make(*from.what_as_AmendGeometry());
       case flat::What::CreateMaterial:
         return make(*from.what_as_CreateMaterial());
       case flat::What::DeleteMaterial:
@@ -147,6 +149,10 @@ class EditReader {
   Edit make(const flat::MoveVertices& from) {
     auto vertices = reader_.items<std::uint32_t>(from.vertices());
     return MoveVertices{{from.id()}, std::move(vertices), reader_.items<Vector3>(from.positions())};
+  }
+  Edit make(const flat::AmendGeometry& from) {
+    const std::string_view change = from.change() ? reader_.view(*from.change()) : std::string_view();
+    return AmendGeometry{{from.id()}, std::string(change)};
   }
 
   Edit make(const flat::CreateMaterial& from) {

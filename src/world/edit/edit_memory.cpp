@@ -25,6 +25,7 @@ struct HeldMemory {
   std::size_t operator()(const MoveVertices& it) const {
     return it.vertices.size() * sizeof(std::uint32_t) + it.positions.size() * sizeof(Vector3);
   }
+  std::size_t operator()(const AmendGeometry& it) const { return it.change.size(); }
   std::size_t operator()(const CreateMaterial& it) const { return it.material.name.size(); }
   std::size_t operator()(const ChangeMaterial& it) const { return it.material.name.size(); }
   std::size_t operator()(const CreateTexture& it) const { return it.texture.bytes->size(); }

@@ -114,6 +114,10 @@ class EditWriter {
     return as_edit(flat::CreateMoveVertices(builder_, it.id.value, vertices, positions));
   }
 
+  WrittenEdit operator()(const AmendGeometry& it) {
+    return as_edit(flat::CreateAmendGeometry(builder_, it.id.value, bytes(it.change)));
+  }
+
   WrittenEdit operator()(const CreateMaterial& it) {
     return as_edit(flat::CreateCreateMaterial(builder_, it.id.value, material(it.material)));
   }

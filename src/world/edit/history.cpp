@@ -27,7 +27,9 @@ bool covers(const Edit& older, const Edit& newer) {
   const auto* moved = std::get_if<MoveVertices>(&newer.what);
   if (const auto* shape = std::get_if<ReplaceGeometry>(&older.what)) {
     const auto* other = std::get_if<ReplaceGeometry>(&newer.what);
-    return (other && other->id == shape->id) || (moved && moved->id == shape->id);
+    const auto* amended = std::get_if<AmendGeometry>(&newer.what);
+    return (other && other->id == shape->id) || (moved && moved->id == shape->id) ||
+           (amended && amended->id == shape->id);
   }
   const auto* vertices = std::get_if<MoveVertices>(&older.what);
   return vertices && moved && vertices->id == moved->id && vertices->vertices == moved->vertices;

@@ -9,7 +9,7 @@ namespace {
 bool makes_shapes(const Edit& edit) {
   if (const auto* group = std::get_if<EditGroup>(&edit.what))
     return std::any_of(group->edits.begin(), group->edits.end(), makes_shapes);
-  return std::holds_alternative<MoveVertices>(edit.what);
+  return std::holds_alternative<MoveVertices>(edit.what) || std::holds_alternative<AmendGeometry>(edit.what);
 }
 
 base::Result<SharedEdit> perform_group(World& world, const EditGroup& group, const Fit& fit) {
@@ -40,7 +40,8 @@ base::Result<SharedEdit> perform_shared(World& world, const Edit& edit, const Fi
   auto inverse = apply(world, performed);
   if (!inverse) return tl::unexpected(inverse.error());
   if (!makes) return SharedEdit{std::move(*inverse), performed};
-  const GeometryId id = std::get<MoveVertices>(performed.what).id;
+  const auto* const moved = std::get_if<MoveVertices>(&performed.what);
+  const GeometryId id = moved ? moved->id : std::get<AmendGeometry>(performed.what).id;
   return SharedEdit{std::move(*inverse), ReplaceGeometry{id, world.find(id)->shape}};
 }
 

@@ -14,6 +14,8 @@ using base::Bounds;
 using base::Vector3;
 
 struct MeshGeometry;
+struct FlatCurves;
+struct Amended;
 
 /// The shape of an object, in the object's own frame (m). Immutable, so that threads, undo and copies
 /// share it; an edit puts another in its place. Derive from it to add a kind of shape (thesis 5.6.2).
@@ -46,8 +48,22 @@ class Geometry {
   /// The bytes from which the reader of this kind (GeometryFactory) makes an equal shape. Fails, saying
   /// why, where it could not: whatever is written can be read.
   virtual base::Result<std::string> write() const = 0;
+
+  /// Curves that lie in the plane z = 0 of the shape's frame, to be swept, off by `tolerance` (m, > 0) at
+  /// most. Fails, saying why, for shapes that are not drawn.
+  virtual base::Result<FlatCurves> flat_curves(double tolerance) const;
+
+  /// The shape after a change that only its kind understands, as bytes that may come from a stranger. Fails
+  /// with a sentence where they are damaged or cannot be done, and for kinds without such changes.
+  virtual base::Result<Amended> amended(std::string_view change) const;
 };
 
 using GeometryPointer = std::shared_ptr<const Geometry>;
+
+/// A changed shape, and the change that takes it back.
+struct Amended {
+  GeometryPointer shape;
+  std::string back;
+};
 
 }  // namespace icome::world

@@ -49,7 +49,8 @@ double volume_of(const geometry::TriangleMesh& mesh) {
 
 // The middle of A4 across is (148.5, 105) mm, so the line lies at x from -48.5 to -28.5 and y from 4 to 6.
 TEST(Relief, PutsARidgeWhereTheLineIs) {
-  const auto world = relief_of(one_line(), {.height = 0.5 * kInMm, .paper = find_paper("paper").value()});
+  const auto world =
+      relief_of(one_line(), {.heights = {.height = 0.5 * kInMm}, .paper = find_paper("paper").value()});
   ASSERT_TRUE(world) << world.error().message;
   const world::PhysicalObject* ridge = object_named(*world, "stroke 2");
   ASSERT_NE(ridge, nullptr);
@@ -74,7 +75,7 @@ TEST(Relief, HasALayerAsAGroupAndASheetThatFeelsAsThePaper) {
 }
 
 TEST(Relief, IsHigherWhereLinesAreWider) {
-  const auto world = relief_of(one_line(), {.height = 0.5 * kInMm, .height_by_width = 0.25, .sheet = 0.0});
+  const auto world = relief_of(one_line(), {.heights = {0.5 * kInMm, 0.25}, .sheet = 0.0});
   ASSERT_TRUE(world) << world.error().message;
   EXPECT_NEAR(mesh_of(*world, *object_named(*world, "stroke 2"))->bounds().max().z(), 1.0 * kInMm, 1e-9);
   EXPECT_EQ(object_named(*world, "sheet"), nullptr);
@@ -93,7 +94,7 @@ TEST(Relief, OfAFilledRingIsTwoSolids) {
   ring->curve.closed = true;
   ring->fill = Colour{0.0F, 1.0F, 0.0F};
   drawing.layers[0].strokes.push_back(ring);
-  const auto world = relief_of(drawing, {.height = 1.0 * kInMm});
+  const auto world = relief_of(drawing, {.heights = {.height = 1.0 * kInMm}});
   ASSERT_TRUE(world) << world.error().message;
   const auto fill = mesh_of(*world, *object_named(*world, "fill 3"));
   // A ridge was there before, so this is 0.2 % higher.

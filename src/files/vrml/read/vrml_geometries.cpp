@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "drawing/shape/drawing_text.h"
 #include "files/csg/csg_text.h"
 #include "files/vrml/read/taken_faces.h"
 #include "geometry/loop/loop_topology.h"
@@ -85,6 +86,11 @@ Result<GeometryPointer> implicit_of(const std::string& formula, const std::vecto
   auto shape = world::ImplicitGeometry::create(formula, bounds);
   if (!shape) return tl::unexpected(shape.error());
   return GeometryPointer(std::move(*shape));
+}
+
+Result<GeometryPointer> drawing_of(const std::string& svg, const std::vector<double>& body) {
+  if (body.size() != 3) return base::fail("it has no heights");
+  return drawing::shape_of_svg(svg, {{body[0], body[1]}, body[2]});
 }
 
 Result<GeometryPointer> csg_of(const std::string& text) {
@@ -212,6 +218,8 @@ class GeometryReader {
         return csg_of(reader_.text(geometry_.text()));
       case flat::GeometryKind::Implicit:
         return implicit_of(reader_.text(geometry_.text()), reader_.items<double>(geometry_.box()));
+      case flat::GeometryKind::Drawing:
+        return drawing_of(reader_.text(geometry_.text()), reader_.items<double>(geometry_.sizes()));
       case flat::GeometryKind::Primitive:
         return primitive_of_text(reader_.text(geometry_.text()), geometry_.along_y());
       default:

@@ -72,7 +72,7 @@ Answer::Answer(std::size_t expected) : parts_(std::make_unique<Parts>(expected))
 Answer::~Answer() = default;
 
 int Answer::add(const GeometryParts& geometry) {
-  static_assert(static_cast<int>(PartKind::Mesh) == static_cast<int>(flat::GeometryKind::MAX));
+  static_assert(static_cast<int>(PartKind::Drawing) == static_cast<int>(flat::GeometryKind::MAX));
   Parts& to = *parts_;
   const auto name = to.text(geometry.name);
   const auto sizes = to.numbers(geometry.sizes);

@@ -23,7 +23,8 @@ enum class PartKind : std::uint8_t {
   Csg,
   Implicit,
   Primitive,
-  Mesh
+  Mesh,
+  Drawing
 };
 
 /// A Geometry of vrml_answer.fbs, which describes each field; the numbers are copied from these spans.

@@ -37,11 +37,11 @@ void fill_mesh(const SceneFiles& files, const Wrapping& wrapping, const SoProtoI
     parts.unit = as_written(static_cast<const SoSFFloat*>(unit)->getValue());
 }
 
-/// Six numbers with spaces between them; else nothing.
-std::vector<double> six_numbers(const std::string& text) {
+/// So many numbers with spaces between them; else nothing.
+std::vector<double> numbers_in(const std::string& text, std::size_t count) {
   std::vector<double> numbers;
   std::string_view rest = text;
-  while (!rest.empty() && numbers.size() < 7) {
+  while (!rest.empty() && numbers.size() <= count) {
     if (rest.front() == ' ') {
       rest.remove_prefix(1);
       continue;
@@ -51,7 +51,7 @@ std::vector<double> six_numbers(const std::string& text) {
     numbers.push_back(read.value);
     rest = read.rest;
   }
-  return numbers.size() == 6 ? numbers : std::vector<double>();
+  return numbers.size() == count ? numbers : std::vector<double>();
 }
 
 }  // namespace
@@ -65,8 +65,13 @@ std::optional<int> Geometries::add_own(const Unwrapped& it, GeometryParts& parts
   } else if (proto == kImplicitProto.name) {
     parts.kind = PartKind::Implicit;
     parts.text = text_in(files_, instance, "formula");
-    parts.box = six_numbers(text_in(files_, instance, "box"));
+    parts.box = numbers_in(text_in(files_, instance, "box"), 6);
     if (parts.box.empty()) parts.text.clear();
+  } else if (proto == kDrawingProto.name) {
+    parts.kind = PartKind::Drawing;
+    parts.text = text_in(files_, instance, "svg");
+    parts.sizes = numbers_in(text_in(files_, instance, "body"), 3);
+    if (parts.sizes.empty()) parts.text.clear();
   } else if (proto == kPrimitiveProto.name) {
     parts.kind = PartKind::Primitive;
     parts.text = text_in(files_, instance, "shape");

@@ -4,6 +4,8 @@
 
 #include <variant>
 
+#include "drawing/shape/drawing_shape.h"
+#include "drawing/shape/drawing_text.h"
 #include "files/csg/csg_text.h"
 #include "files/exact_looks.h"
 #include "files/shown_world.h"
@@ -132,6 +134,20 @@ class VrmlShapes::ByKind {
     show(shape, VrmlEdges::SharpWhereBent);
   }
 
+  void write(const drawing::DrawingShape& shape) {
+    const drawing::DrawingBody& body = shape.body();
+    std::string numbers;
+    for (const double number : {body.heights.height, body.heights.height_by_width, body.sheet}) {
+      if (!numbers.empty()) numbers += ' ';
+      io::append_number(numbers, number);
+    }
+    open(kDrawingProto.name);
+    text_.text_field("svg", drawing::svg_of(shape));
+    text_.text_field("body", numbers);
+    tell_of_part_colours_left(false);
+    show(shape, VrmlEdges::SharpWhereBent);
+  }
+
   void write_triangles(const Geometry& shape, const std::string& why) {
     const auto triangles = shown_triangles(shape);
     const std::string wrong = triangles ? world::complaint(**triangles) : triangles.error().message;
@@ -182,7 +198,7 @@ const VrmlProto* VrmlShapes::proto_of(const Geometry& shape) {
       [](const CsgGeometry& it) -> Proto { return has_own_primitive(it.tree) ? nullptr : &kCsgProto; },
       [](const LoopGeometry&) -> Proto { return &kLoopProto; },
       [](const ImplicitGeometry&) -> Proto { return &kImplicitProto; },
-      [](const Geometry&) -> Proto { return nullptr; });
+      [](const Geometry& it) -> Proto { return drawing::drawing_in(it) ? &kDrawingProto : nullptr; });
 }
 
 void VrmlShapes::write(const Geometry& shape, const std::string& def, const std::string& owner) {
@@ -193,6 +209,7 @@ void VrmlShapes::write(const Geometry& shape, const std::string& def, const std:
       [&](const LoopGeometry& it) { by_kind.write(it); }, [&](const CsgGeometry& it) { by_kind.write(it); },
       [&](const ImplicitGeometry& it) { by_kind.write(it); },
       [&](const Geometry& it) {
+        if (const auto* const drawn = drawing::drawing_in(it)) return by_kind.write(*drawn);
         by_kind.write_triangles(
             it, fmt::format("VRML 2.0 has nothing for shapes of the kind \"{}\".", it.kind()));
       });

@@ -259,7 +259,7 @@ void VrmlWriter::write_protos() {
     used.insert(&kEffectProto);
   if (!world_.scenes().empty()) used.insert(&kSceneProto);
   for (const VrmlProto* proto : {&kMaterialProto, &kPrimitiveProto, &kCsgProto, &kLoopProto, &kImplicitProto,
-                                 &kEffectProto, &kSceneProto}) {
+                                 &kDrawingProto, &kEffectProto, &kSceneProto}) {
     if (used.contains(proto)) text_.add(definition(*proto));
   }
 }
