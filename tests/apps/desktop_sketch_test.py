@@ -6,7 +6,9 @@ from desktop_program import DesktopTest, wait_for
 from icome_program import run
 
 
-class SketchWindowTest(DesktopTest):
+class PaperTest(DesktopTest):
+    """What windows of drawings have in common."""
+
     def open_page(self, *arguments):
         """The window, with all of its paper in sight."""
         desktop = self.start("sketch", "open", *arguments, "--theme", "light").open()
@@ -45,6 +47,8 @@ class SketchWindowTest(DesktopTest):
         desktop.wait_title(r"\*")
         return self.ink(desktop)
 
+
+class SketchWindowTest(PaperTest):
     def test_a_line_is_drawn_undone_and_saved(self):
         desktop = self.open_page()
         one = self.draw_and_see(desktop, [(-150, 0), (-50, 60), (50, -60), (150, 0)])
@@ -85,6 +89,56 @@ class SketchWindowTest(DesktopTest):
         wait_for("the message", lambda: desktop.whole().longest_column(bad) >= 16)
         desktop.quit()
         self.assertEqual(desktop.wait_end(), 0, desktop.printed())
+
+
+class DesignDrawingTest(PaperTest):
+    """A drawing that is an object of the design, drawn on in a window of its own."""
+
+    def strokes_in(self, design):
+        listed = run("sketch", "list", design, "--json")
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        return sum(len(layer["strokes"]) for layer in json.loads(listed.stdout)["layers"])
+
+    def open_design(self):
+        edits = self.folder / "edits.jsonl"
+        edits.write_text('{"op": "draw", "way": [[20, 180], [280, 180]]}\n')
+        svg, design = self.folder / "paper.svg", self.folder / "paper.icome"
+        for words in (("edit", "new", "--apply", edits, "--out", svg), ("model", svg, design, "--drawing")):
+            done = run("sketch", *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        desktop = self.start("--theme", "light", design).open()
+        desktop.wait_title(r"^paper\.icome - ICOME")
+        return desktop, design
+
+    def save(self, desktop, design, strokes):
+        desktop.screen.ask("windowactivate", "--sync", desktop.window)
+        desktop.key("ctrl+s")
+        wait_for(f"{strokes} strokes in the file", lambda: self.strokes_in(design) == strokes)
+
+    def test_what_is_drawn_is_in_the_design_at_once_and_undone_there(self):
+        desktop, design = self.open_design()
+        main = desktop.window
+        desktop.key("ctrl+a", "ctrl+shift+p")
+        desktop.find_window("Find a Command")
+        desktop.type("draw on it")
+        desktop.key("Return")
+        desktop.window = desktop.find_window("in the design")
+        self.draw_and_see_in_design(desktop)
+        self.keep(desktop, "sketch-in-design")
+        desktop.key("ctrl+s")  # it is kept in the design: nothing to ask
+        desktop.window = main
+        desktop.wait_title(r"\*")
+        self.save(desktop, design, 2)
+        desktop.key("ctrl+z")
+        self.save(desktop, design, 1)
+        desktop.quit()
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
+
+    def draw_and_see_in_design(self, desktop):
+        wait_for("white paper", lambda: desktop.whole().pixel(*self.middle(desktop)) == (255, 255, 255))
+        before = self.ink(desktop)
+        self.draw(desktop, [(-150, 0), (-50, 60), (50, -60), (150, 0)])
+        wait_for("the line", lambda: self.ink(desktop) > before + 0.0005)
 
 
 if __name__ == "__main__":
