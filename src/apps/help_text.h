@@ -177,11 +177,11 @@ constexpr const char* kCsgExamples =
 
 constexpr const char* kDesignFileHelp =
     "A design: VRML 2.0 (.wrl, .wrz), glTF (.glb, .gltf), OBJ, PLY, STL, OFF, OpenSCAD's .csg (from glTF on "
-    "also packed as .xz) or ICOME's own .icome; or the link of a design on a server";
+    "also packed as .xz), a drawing (.svg) or ICOME's own .icome; or the link of a design on a server";
 
 constexpr const char* kDesignOutHelp =
     "The file to write; its ending says the format: VRML 2.0 (.wrl), glTF (.glb, .gltf), OBJ, PLY, STL, "
-    "OFF or ICOME's own .icome";
+    "OFF, of a drawing .svg, or ICOME's own .icome";
 
 constexpr const char* kForceHelp =
     "Write OUT even where a damaged design, or one that another program has changed meanwhile, is lost by "

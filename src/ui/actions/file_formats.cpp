@@ -19,6 +19,7 @@ constexpr Format kFormats[] = {
     {"PLY", "*.ply", true},
     {"STL", "*.stl", true},
     {"OFF", "*.off", true},
+    {"SVG drawing", "*.svg", true},
     {"OpenSCAD CSG", "*.csg", false},
     {"Packed meshes", "*.obj.xz *.ply.xz *.stl.xz *.off.xz", false},
 };
