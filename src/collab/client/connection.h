@@ -38,7 +38,7 @@ class Connection {
 
  private:
   Connection(const DesignAddress& address, ClientIdentity identity, ContentCachePointer cache)
-      : talk_(address, std::move(identity), {}, std::move(cache)) {}
+      : talk_(address, std::move(identity), drawing::every_kind_of_shape(), std::move(cache)) {}
   void take(NetworkThread::Opened& opened);
   void take(std::string& frame);
   void take(NetworkThread::Closed& closed);

@@ -309,7 +309,9 @@ TEST(DrawingShape, DamagedEditsAreRefusedAndChangeNothing) {
     for (int k = 0; k < 3; ++k) bytes[random() % bytes.size()] = char(random());
     if (i % 7 == 0) bytes.resize(random() % bytes.size());
     const auto amended = shape->amended(bytes);
-    if (amended) { EXPECT_TRUE(check_drawing(drawing_in(*amended->shape)->drawing())); }
+    if (amended) {
+      EXPECT_TRUE(check_drawing(drawing_in(*amended->shape)->drawing()));
+    }
     EXPECT_EQ(shape->hash(), before);
   }
 }

@@ -66,6 +66,11 @@ TEST(EditBytes, GiveBackEveryKindOfEditAndShape) {
     // What takes it back can be written, too.
     EXPECT_EQ(written(read_back(written(inverse))), written(inverse));
   }
+  // No kind of shape of the world itself has changes of its own.
+  const Edit amendment = AmendGeometry{{101}, std::string("\0change\xff", 8)};
+  kinds.insert(amendment.what.index());
+  EXPECT_EQ(std::get<AmendGeometry>(read_back(written(amendment)).what).change,
+            std::get<AmendGeometry>(amendment.what).change);
   EXPECT_EQ(kinds.size(), std::variant_size_v<Edit::What>);
 }
 
