@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "drawing/shape/every_kind.h"
 #include "files/csg/csg_reader.h"
 #include "files/csg/csg_text.h"
 #include "files/design_files.h"
@@ -41,7 +42,7 @@ std::string content_of(const std::filesystem::path& path) {
 /// What was read is a world like any other: it can be told in edits, and they make it again.
 void require_whole(const world::World& world) {
   world::World again;
-  const world::GeometryFactory factory;
+  const world::GeometryFactory factory = drawing::every_kind_of_shape();
   for (const world::Edit& edit : world::edits_of(world)) {
     const auto bytes = world::to_bytes(edit);
     require(bytes.has_value(), "what was read can be written");
@@ -117,14 +118,14 @@ void run_journal(std::string_view bytes) {
   require(file.has_value(), "a file that was written can be opened");
   io::MemoryBudget memory;
   memory.add_file(bytes.size());
-  const world::GeometryFactory factory;
+  const world::GeometryFactory factory = drawing::every_kind_of_shape();
   const auto replayed = files::replay_journal(*file, factory, {}, &memory);
   if (!replayed) return require_told(replayed.error());
   require_whole(replayed->world);
 }
 
 void run_edit(std::string_view bytes) {
-  const world::GeometryFactory factory;
+  const world::GeometryFactory factory = drawing::every_kind_of_shape();
   const auto edit = world::edit_from_bytes(bytes, factory);
   if (!edit) return require_told(edit.error());
   static const world::World kFurnished = [] {
