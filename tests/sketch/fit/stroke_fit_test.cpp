@@ -93,7 +93,7 @@ constexpr int kStrokeShares = 6;
 
 /// Tests that hold every one of many strokes to something, a share of them each, so that shards share them
 /// out.
-class ShareOfStrokes : public testing::TestWithParam<int> {
+class ShareOfStrokes : public ::testing::TestWithParam<int> {
  protected:
   static std::map<std::string, PenStroke> share() {
     std::map<std::string, PenStroke> strokes;
@@ -103,7 +103,7 @@ class ShareOfStrokes : public testing::TestWithParam<int> {
     return strokes;
   }
 };
-INSTANTIATE_TEST_SUITE_P(FitStroke, ShareOfStrokes, testing::Range(0, kStrokeShares));
+INSTANTIATE_TEST_SUITE_P(FitStroke, ShareOfStrokes, ::testing::Range(0, kStrokeShares));
 
 FitSettings fit_settings(FitMethod method, bool refit, double error = kFitError) {
   FitSettings settings;

@@ -82,7 +82,7 @@ void expect_same_area(const std::vector<Curve>& lines, FillRule rule, base::Rand
   }
 }
 
-class RandomLoops : public testing::TestWithParam<int> {};
+class RandomLoops : public ::testing::TestWithParam<int> {};
 
 TEST_P(RandomLoops, FillWhatTheRuleSays) {
   base::Random random{std::uint64_t(GetParam())};
@@ -94,7 +94,7 @@ TEST_P(RandomLoops, FillWhatTheRuleSays) {
     if (HasFailure()) FAIL() << "drawing " << i;
   }
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomLoops, testing::Range(0, 4));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomLoops, ::testing::Range(0, 4));
 
 TEST(FilledLoops, OfNestedCirclesAreExact) {
   base::Random random(5);
