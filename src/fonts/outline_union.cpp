@@ -14,9 +14,7 @@ std::vector<Vector2> ring_of(const ClipperLib::Path& path, bool counter_clockwis
   return ring;
 }
 
-}  // namespace
-
-std::vector<geometry::Outline> united(const Rings& rings) {
+std::vector<geometry::Outline> covered_by(const Rings& rings, ClipperLib::PolyFillType rule) {
   ClipperLib::Clipper clipper;
   clipper.StrictlySimple(true);
   for (const std::vector<Vector2>& ring : rings) {
@@ -26,7 +24,7 @@ std::vector<geometry::Outline> united(const Rings& rings) {
     clipper.AddPath(path, ClipperLib::ptSubject, true);
   }
   ClipperLib::PolyTree tree;
-  clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  clipper.Execute(ClipperLib::ctUnion, tree, rule, rule);
   std::vector<geometry::Outline> pieces;
   for (const ClipperLib::PolyNode* node = tree.GetFirst(); node; node = node->GetNext()) {
     if (node->IsHole()) continue;
@@ -36,6 +34,16 @@ std::vector<geometry::Outline> united(const Rings& rings) {
     pieces.push_back(std::move(piece));
   }
   return pieces;
+}
+
+}  // namespace
+
+std::vector<geometry::Outline> united(const Rings& rings) {
+  return covered_by(rings, ClipperLib::pftNonZero);
+}
+
+std::vector<geometry::Outline> covered_oddly(const Rings& rings) {
+  return covered_by(rings, ClipperLib::pftEvenOdd);
 }
 
 }  // namespace icome::fonts

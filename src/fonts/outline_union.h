@@ -14,4 +14,8 @@ using Rings = std::vector<std::vector<Vector2>>;
 /// 2^30 either way, and remain so.
 std::vector<geometry::Outline> united(const Rings& rings);
 
+/// The area that an odd number of rings cover, a ring that covers twice by itself counting twice; else as
+/// united().
+std::vector<geometry::Outline> covered_oddly(const Rings& rings);
+
 }  // namespace icome::fonts

@@ -197,4 +197,10 @@ std::optional<std::uint32_t> web_colour(std::string_view text) {
   return std::nullopt;
 }
 
+std::vector<std::string_view> web_colour_names() {
+  std::vector<std::string_view> names;
+  for (const NamedColour& known : kNamedColours) names.push_back(known.name);
+  return names;
+}
+
 }  // namespace icome::io

@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "sketch/drawn.h"
+#include "drawing/drawing_edit.h"
 
 namespace icome::drawing::judges {
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace icome::io {
 namespace {
 
@@ -10,6 +12,13 @@ TEST(WebColour, KnowsNamesInAnyCase) {
   EXPECT_EQ(web_colour("RebeccaPurple"), 0x663399ffU);
   EXPECT_EQ(web_colour("transparent"), 0x00000000U);
   EXPECT_FALSE(web_colour("golden"));
+}
+
+TEST(WebColour, NamesAreAlphabeticalAndKnown) {
+  const std::vector<std::string_view> names = web_colour_names();
+  EXPECT_EQ(names.size(), 148U);
+  EXPECT_TRUE(std::ranges::is_sorted(names));
+  for (const std::string_view name : names) EXPECT_TRUE(web_colour(name)) << name;
 }
 
 TEST(WebColour, ReadsDigitsInAllFourLengths) {

@@ -12,8 +12,8 @@ struct CssColour {
   double alpha = 1.0;
 };
 
-/// "#rgb", "#rrggbb" (both also with a digit or two of alpha), "rgb(...)", "rgba(...)", "transparent" or one
-/// of the names of CSS, without regard to case; nothing for other text.
+/// "#rgb", "#rrggbb" (both also with a digit or two of alpha), "rgb(...)", "rgba(...)", "hsl(...)",
+/// "hsla(...)", "transparent" or one of the names of CSS, without regard to case; nothing for other text.
 std::optional<CssColour> parse_css_colour(std::string_view text);
 
 }  // namespace icome::drawing

@@ -27,7 +27,7 @@ constexpr double radians_of(double degrees) { return degrees * std::numbers::pi 
 class SvgPathParser {
  public:
   explicit SvgPathParser(std::string_view data) : scanner_(data) {}
-  base::Result<std::vector<SvgSubpath>> parse();
+  SvgShape parse();
 
  private:
   std::optional<std::string> run(char command);
@@ -133,18 +133,19 @@ std::optional<std::string> SvgPathParser::run(char letter) {
   return std::nullopt;
 }
 
-base::Result<std::vector<SvgSubpath>> SvgPathParser::parse() {
+SvgShape SvgPathParser::parse() {
+  std::optional<std::string> fault;
   bool is_first = true;
-  while (!scanner_.at_end()) {
+  while (!fault && !scanner_.at_end()) {
     const char letter = scanner_.letter();
     if (letter == '\0')
-      return base::fail(io::quoted(scanner_.next_word()) +
-                        " stands in the path data where a command is expected");
-    if (std::exchange(is_first, false) && letter != 'M' && letter != 'm')
-      return base::fail(fmt::format("the path data begins with '{}'; it must begin with M", letter));
-    if (const auto wrong = run(letter)) return base::fail(*wrong);
+      fault = io::quoted(scanner_.next_word()) + " stands in the path data where a command is expected";
+    else if (std::exchange(is_first, false) && letter != 'M' && letter != 'm')
+      fault = fmt::format("the path data begins with '{}'; it must begin with M", letter);
+    else
+      fault = run(letter);
   }
-  return builder_.take();
+  return {builder_.take(), fault.value_or("")};
 }
 
 /// An ellipse by its centre, and the part of it that an arc runs through.
@@ -233,8 +234,6 @@ void SvgPathBuilder::close() {
 
 std::vector<SvgSubpath> SvgPathBuilder::take() { return std::move(subpaths_); }
 
-base::Result<std::vector<SvgSubpath>> parse_svg_path(std::string_view data) {
-  return SvgPathParser(data).parse();
-}
+SvgShape parse_svg_path(std::string_view data) { return SvgPathParser(data).parse(); }
 
 }  // namespace icome::drawing

@@ -1,8 +1,8 @@
 #pragma once
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "base/result.h"
 #include "geometry/curve/cubic_bezier.h"
 
 namespace icome::drawing {
@@ -43,8 +43,14 @@ class SvgPathBuilder {
   std::size_t segments_ = 0;
 };
 
-/// The subpaths of path data: all commands of SVG. Fails with a sentence that begins with file and line put
-/// before it.
-base::Result<std::vector<SvgSubpath>> parse_svg_path(std::string_view data);
+/// The lines of an element, as far as they can be read.
+struct SvgShape {
+  std::vector<SvgSubpath> subpaths;
+  std::string
+      fault;  ///< what ended the reading, as a sentence without file and line; empty where nothing did
+};
+
+/// The subpaths of path data: all commands of SVG, up to the first fault.
+SvgShape parse_svg_path(std::string_view data);
 
 }  // namespace icome::drawing

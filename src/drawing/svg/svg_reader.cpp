@@ -10,11 +10,13 @@
 #include <utility>
 
 #include "base/shown_text.h"
+#include "drawing/outline/filled_loops.h"
 #include "drawing/svg/svg_frame.h"
 #include "drawing/svg/svg_names.h"
 #include "drawing/svg/svg_notes.h"
 #include "drawing/svg/svg_own.h"
 #include "drawing/svg/svg_shapes.h"
+#include "drawing/svg/svg_sheet.h"
 #include "drawing/svg/svg_style.h"
 #include "drawing/svg/xml_text.h"
 #include "io/file_bytes.h"
@@ -28,14 +30,16 @@ constexpr int kDeepestSvg = 200;                     // elements within one anot
 constexpr int kMostUsesWithin = 32;                  // <use> that shows <use> and so on
 constexpr std::size_t kMostSvgElements = 2'000'000;  // drawn, through <use> too
 constexpr std::size_t kMostSvgBytes = 128U << 20U;   // of attributes, likewise
+constexpr std::size_t kBytesForALook = 32;           // at a rule of a style sheet: the time that it costs
 constexpr std::size_t kMostSvgSegments = 10'000'000;
 constexpr double kFarthestSvgPoint = 1e4;  // m
 constexpr double kEvenScale = 1e-3;        // relative difference of the scales that widths do not show
 
 /// Elements that say nothing about lines, or are looked at where something refers to them.
-constexpr std::array<std::string_view, 14> kSilentElements = {
-    "defs",           "title",          "desc",    "metadata", "symbol", "marker", "clipPath",
-    "linearGradient", "radialGradient", "pattern", "mask",     "filter", "view",   "script"};
+constexpr std::array<std::string_view, 15> kSilentElements = {
+    "defs",           "title",   "desc", "metadata", "symbol", "marker", "clipPath", "linearGradient",
+    "radialGradient", "pattern", "mask", "filter",   "view",   "script", "style"};
+constexpr double kStraightFill = 1e-5;  // m, by which fills of crossing lines may be off
 
 /// The state that holds for the elements in one place of the file.
 struct SvgContext {
@@ -43,7 +47,6 @@ struct SvgContext {
   SvgStyle style;
   Vector2 whole = Vector2::Zero();  ///< what percent are of, user units
   int depth = 0;
-  int uses = 0;
 };
 
 class SvgReader {
@@ -55,49 +58,71 @@ class SvgReader {
  private:
   using Done = base::Result<void>;
 
-  void index_ids();
+  void index();
   bool is_svg_name(const XmlNode& node) const;
   std::string_view reference_of(const XmlNode& use) const;
   std::string layer_name_of(const XmlNode& group) const;
   bool is_marked_layer(const XmlNode& group) const;
-  Done read_root_frame(SvgContext& context);
+  void read_root_frame(SvgContext& context);
   Done read_top(const XmlNode& node, const SvgContext& root);
   Done read_layer(const XmlNode& group, const SvgContext& root);
   Done read_element(const XmlNode& node, const SvgContext& around, bool is_layer = false);
   Done read_inside(const XmlNode& node, const SvgContext& context);
   Done read_switch(const XmlNode& node, const SvgContext& context);
   Done read_use(const XmlNode& node, SvgContext context);
+  Done read_shown(const XmlNode& use, const XmlNode& shown, SvgContext context);
   Done read_nested(const XmlNode& node, SvgContext context, const Vector2& size);
+  SvgViewport viewport_of(const XmlNode& node, const Vector2& size);
   Done read_shape(const XmlNode& node, const SvgContext& context);
   Done read_own(const XmlNode& node, Stroke stroke, const SvgContext& context);
   Done charge(const XmlNode& node);
-  Done enter(const XmlNode& node, const SvgContext& around, SvgContext& context);
-  Done add_subpath(const XmlNode& node, SvgSubpath subpath, const SvgContext& context);
+  bool enter(const XmlNode& node, const SvgContext& around, SvgContext& context);
+  SvgStyle style_of(const XmlNode& node, const SvgContext& around, SvgNotes& notes);
+  Done add_stroke(const XmlNode& node, Stroke stroke, bool has_fill, const SvgContext& context);
+  Done add_filled(const XmlNode& node, const std::vector<Curve>& lines, const SvgContext& context);
   Done add(const XmlNode& node, Stroke stroke);
   void begin_layer(std::string name, bool is_loose);
   bool is_skipped(const XmlNode& node);
-  double line_width(const XmlNode& node, const SvgContext& context);
+  double line_width(const SvgContext& context) const;
+  void tell_uneven_scale(const XmlNode& node, const SvgContext& context);
 
   const XmlText& xml_;
   SvgNotes notes_;
+  SvgSheet sheet_;
   Drawing drawing_;
   std::unordered_map<std::string_view, XmlNode> ids_;
   Eigen::Affine2d metres_from_root_ = Eigen::Affine2d::Identity();
+  std::vector<XmlNode> shown_;   // by <use>, the outermost first
   bool is_loose_layer_ = false;  // the last layer takes what lies outside of groups
   std::size_t loose_layers_ = 0;
   std::size_t elements_ = 0, bytes_ = 0, segments_ = 0;
 };
 
-/// A line between two points has nothing within it to be filled.
-bool encloses_nothing(const SvgSubpath& subpath) {
-  if (subpath.segments.size() > 1) return false;
-  const CubicBezier& only = subpath.segments.front();
-  return only == CubicBezier::line(only.points[0], only.points[3]);
+/// Does the element hold the other one, or is it that?
+bool is_around(const XmlNode& outer, XmlNode node) {
+  while (node && node != outer) node = node.parent();
+  return bool(node);
 }
 
-void SvgReader::index_ids() {
+/// A straight line has nothing within it to be filled.
+bool encloses_nothing(const Curve& curve) {
+  constexpr double kStraight = 1e-12;  // of its length: rounding of transforms
+  if (curve.segments.size() > 1) return false;
+  const CubicBezier& only = curve.segments.front();
+  const Vector2 way = only.points[3] - only.points[0];
+  const auto beside = [&](const Vector2& point) {
+    const Vector2 away = point - only.points[0];
+    return std::abs(away.x() * way.y() - away.y() * way.x());
+  };
+  return std::max(beside(only.points[1]), beside(only.points[2])) <= kStraight * way.squaredNorm() &&
+         way.squaredNorm() > 0.0;
+}
+
+/// Finds the elements that others refer to, and the style sheets.
+void SvgReader::index() {
   for_each_element(xml_.root(), [&](const XmlNode& node) {
     if (const XmlAttribute id = node.attribute("id")) ids_.emplace(id.value(), node);
+    if (local_name(node.name()) == "style" && is_svg_name(node)) sheet_.add(node, notes_);
   });
 }
 
@@ -144,26 +169,41 @@ SvgReader::Done SvgReader::charge(const XmlNode& node) {
                                   kMostSvgElements, kMostSvgBytes >> 20U));
 }
 
-/// Takes the step from an element's surroundings into it.
-SvgReader::Done SvgReader::enter(const XmlNode& node, const SvgContext& around, SvgContext& context) {
+SvgStyle SvgReader::style_of(const XmlNode& node, const SvgContext& around, SvgNotes& notes) {
+  std::size_t looks = 0;
+  const std::vector<std::string_view> declarations = sheet_.declarations_of(node, looks);
+  bytes_ += kBytesForALook * looks;
+  for (const std::string_view some : declarations) bytes_ += some.size();
+  return svg_style_of(node, around.style, declarations, around.whole.norm() / std::sqrt(2.0), notes);
+}
+
+/// Takes the step from an element's surroundings into it; false where it cannot be drawn.
+bool SvgReader::enter(const XmlNode& node, const SvgContext& around, SvgContext& context) {
   context = around;
-  if (++context.depth > kDeepestSvg)
-    return xml_.fail_at(node, fmt::format("elements lie more than {} deep within one another", kDeepestSvg));
-  context.style = svg_style_of(node, around.style, around.whole.norm() / std::sqrt(2.0), notes_);
-  if (const XmlAttribute transform = node.attribute("transform")) {
-    const auto parsed = parse_svg_transform(transform.value());
-    if (!parsed) return xml_.fail_at(node, parsed.error().message);
-    context.root_from_user = around.root_from_user * *parsed;
+  if (++context.depth > kDeepestSvg) {
+    notes_.tell(node, fmt::format("what lies more than {} elements deep is skipped", kDeepestSvg));
+    return false;
   }
-  return {};
+  context.style = style_of(node, around, notes_);
+  const XmlAttribute transform = node.attribute("transform");
+  if (!transform) return true;
+  const auto parsed = parse_svg_transform(transform.value());
+  if (!parsed) notes_.tell(node, parsed.error().message + ": it is left out");
+  if (parsed) context.root_from_user = around.root_from_user * *parsed;
+  if (context.root_from_user.matrix().allFinite()) return true;
+  notes_.tell(node, "an element whose transforms have numbers that are too large is skipped");
+  return false;
 }
 
 SvgReader::Done SvgReader::add(const XmlNode& node, Stroke stroke) {
   for (const CubicBezier& segment : stroke.curve.segments)
     for (const Vector2& point : segment.points)
-      if (!(point.cwiseAbs().maxCoeff() <= kFarthestSvgPoint))
-        return xml_.fail_at(node, fmt::format("<{}> reaches farther than {:g} m from the paper's corner",
-                                              node.name(), kFarthestSvgPoint));
+      if (!(point.cwiseAbs().maxCoeff() <= kFarthestSvgPoint)) {
+        notes_.tell(node,
+                    fmt::format("a line that reaches farther than {:g} m from the paper's corner is skipped",
+                                kFarthestSvgPoint));
+        return {};
+      }
   segments_ += stroke.curve.segments.size();
   if (segments_ > kMostSvgSegments)
     return xml_.fail_at(node, fmt::format("the drawing has more than {} segments", kMostSvgSegments));
@@ -173,25 +213,26 @@ SvgReader::Done SvgReader::add(const XmlNode& node, Stroke stroke) {
 }
 
 /// The width of a line in m.
-double SvgReader::line_width(const XmlNode& node, const SvgContext& context) {
+double SvgReader::line_width(const SvgContext& context) const {
+  return context.style.line_width *
+         std::sqrt(std::abs((metres_from_root_ * context.root_from_user).linear().determinant()));
+}
+
+void SvgReader::tell_uneven_scale(const XmlNode& node, const SvgContext& context) {
   const Eigen::Matrix2d linear = (metres_from_root_ * context.root_from_user).linear();
   const double one = linear.col(0).norm(), other = linear.col(1).norm();
   const double turned = std::abs(linear.col(0).dot(linear.col(1)));
   if (std::abs(one - other) > kEvenScale * one || turned > kEvenScale * one * other)
     notes_.tell(node, "the width of an unevenly scaled line is taken as its mean");
-  return context.style.line_width * std::sqrt(std::abs(linear.determinant()));
 }
 
-SvgReader::Done SvgReader::add_subpath(const XmlNode& node, SvgSubpath subpath, const SvgContext& context) {
+/// Adds a curve with the line of the context and perhaps its fill.
+SvgReader::Done SvgReader::add_stroke(const XmlNode& node, Stroke stroke, bool has_fill,
+                                      const SvgContext& context) {
   const SvgStyle& style = context.style;
-  Stroke stroke;
   const bool has_line = style.line && style.line_width > 0.0;
-  const bool has_fill = style.fill && !encloses_nothing(subpath);
   const double line_opacity = has_line ? style.opacity * style.line_opacity * style.line->alpha : 0.0;
   const double fill_opacity = has_fill ? style.opacity * style.fill_opacity * style.fill->alpha : 0.0;
-  stroke.curve.segments = std::move(subpath.segments);
-  stroke.curve.closed = subpath.closed;
-  stroke.curve = transformed(stroke.curve, metres_from_root_ * context.root_from_user);
   stroke.ends = style.ends;
   if (has_fill) {
     stroke.fill = style.fill->colour;
@@ -204,14 +245,48 @@ SvgReader::Done SvgReader::add_subpath(const XmlNode& node, SvgSubpath subpath, 
     if (const auto added = add(node, stroke); !added) return added;
     stroke.fill.reset();
   }
-  const double width = line_width(node, context);
-  if (!std::isfinite(width) || width > kFarthestSvgPoint)
-    return xml_.fail_at(node,
-                        fmt::format("the line of <{}> is wider than {:g} m", node.name(), kFarthestSvgPoint));
+  tell_uneven_scale(node, context);
+  const double width = line_width(context);
+  if (!std::isfinite(width) || width > kFarthestSvgPoint) {
+    notes_.tell(node, fmt::format("a line that is wider than {:g} m is skipped", kFarthestSvgPoint));
+    return {};
+  }
   stroke.curve.widths = {{0.0, width, stroke.curve.end(), width}};
   stroke.colour = style.line->colour;
   stroke.opacity = line_opacity;
   return add(node, std::move(stroke));
+}
+
+/// Adds all lines of an element and what they enclose together: lines that lie apart with a fill of their own
+/// each, others above a stroke that is their fill.
+SvgReader::Done SvgReader::add_filled(const XmlNode& node, const std::vector<Curve>& lines,
+                                      const SvgContext& context) {
+  const SvgStyle& style = context.style;
+  const double beside = style.line && style.line_width > 0.0 ? 0.5 * line_width(context) : 0.0;
+  for (FilledLoops& filled : filled_loops(lines, style.rule, beside, kStraightFill)) {
+    if (filled.likeness == FillLikeness::StraightPieces)
+      notes_.tell(node, "the area that crossing lines enclose by fill-rule evenodd has straight edges");
+    if (filled.likeness == FillLikeness::NonZeroInstead)
+      notes_.tell(node, "fill-rule evenodd of very many lines is taken as nonzero");
+    const Curve& first = lines[filled.members.front()];
+    const bool is_alone = filled.members.size() == 1 && filled.likeness != FillLikeness::StraightPieces;
+    if (!is_alone && !filled.curve.segments.empty()) {
+      Stroke area;
+      area.curve = std::move(filled.curve);
+      area.colour = style.fill->colour;
+      area.fill = style.fill->colour;
+      area.opacity = style.opacity * style.fill_opacity * style.fill->alpha;
+      area.ends = style.ends;
+      if (const auto added = add(node, std::move(area)); !added) return added;
+    }
+    for (const std::size_t i : filled.members) {
+      Stroke stroke;
+      stroke.curve = lines[i];
+      const bool has_fill = is_alone && !encloses_nothing(first);
+      if (const auto added = add_stroke(node, std::move(stroke), has_fill, context); !added) return added;
+    }
+  }
+  return {};
 }
 
 SvgReader::Done SvgReader::read_own(const XmlNode& node, Stroke stroke, const SvgContext& context) {
@@ -228,8 +303,8 @@ SvgReader::Done SvgReader::read_shape(const XmlNode& node, const SvgContext& con
     notes_.tell(node, "a stroke of ICOME was drawn anew by another program: its outline is taken");
   if (!is_redrawn) {
     auto own = own_stroke_of(xml_, node);
-    if (!own) return xml_.fail_at(node, own.error().message);
-    if (*own) return read_own(node, std::move(**own), context);
+    if (!own) notes_.tell(node, own.error().message + ": what the path draws is taken");
+    if (own && *own) return read_own(node, std::move(**own), context);
   }
   if (!context.style.visible) {
     notes_.tell(node, "a hidden element is skipped");
@@ -239,22 +314,38 @@ SvgReader::Done SvgReader::read_shape(const XmlNode& node, const SvgContext& con
     notes_.tell(node, "a shape without line and fill is skipped");
     return {};
   }
-  auto subpaths = svg_shape_of(node, context.whole);
-  if (!subpaths) return xml_.fail_at(node, subpaths.error().message);
-  if (subpaths->size() > 1 && context.style.fill)
-    notes_.tell(node, "each part of a filled path is a stroke with a fill of its own: holes are filled");
-  for (SvgSubpath& subpath : *subpaths)
-    if (const auto added = add_subpath(node, std::move(subpath), context); !added) return added;
+  SvgShape shape = svg_shape_of(node, context.whole);
+  if (!shape.fault.empty()) notes_.tell(node, shape.fault);
+  std::vector<Curve> lines;
+  for (SvgSubpath& subpath : shape.subpaths) {
+    Curve line;
+    line.segments = std::move(subpath.segments);
+    line.closed = subpath.closed;
+    lines.push_back(transformed(line, metres_from_root_ * context.root_from_user));
+  }
+  if (context.style.fill) return add_filled(node, lines, context);
+  for (Curve& line : lines) {
+    Stroke stroke;
+    stroke.curve = std::move(line);
+    if (const auto added = add_stroke(node, std::move(stroke), false, context); !added) return added;
+  }
   return {};
+}
+
+/// The frame by a node's viewBox; one that is none is left out.
+SvgViewport SvgReader::viewport_of(const XmlNode& node, const Vector2& size) {
+  auto viewport = svg_viewport(node, size);
+  if (viewport) return *viewport;
+  notes_.tell(node, viewport.error().message + ": it is left out");
+  return {size};
 }
 
 /// An <svg> or <symbol> within the file, which has that size in the units around it.
 SvgReader::Done SvgReader::read_nested(const XmlNode& node, SvgContext context, const Vector2& size) {
   if (!(size.minCoeff() > 0.0)) return {};
-  const auto viewport = svg_viewport(node, size);
-  if (!viewport) return xml_.fail_at(node, viewport.error().message);
-  context.root_from_user = context.root_from_user * viewport->outer_from_inner;
-  context.whole = viewport->size;
+  const SvgViewport viewport = viewport_of(node, size);
+  context.root_from_user = context.root_from_user * viewport.outer_from_inner;
+  context.whole = viewport.size;
   return read_inside(node, context);
 }
 
@@ -265,19 +356,28 @@ SvgReader::Done SvgReader::read_use(const XmlNode& node, SvgContext context) {
     notes_.tell(node, "<use> of what is not in the file is skipped");
     return {};
   }
-  if (++context.uses > kMostUsesWithin)
-    return xml_.fail_at(node, fmt::format("<use> of {} shows itself, or lies more than {} deep in others",
-                                          quoted_value(reference), kMostUsesWithin));
+  const XmlNode shown = found->second;
+  if (is_around(shown, node) || std::ranges::count(shown_, shown) > 0 || shown_.size() == kMostUsesWithin) {
+    notes_.tell(node, fmt::format("<use> that shows itself, or lies more than {} deep in others, is skipped",
+                                  kMostUsesWithin));
+    return {};
+  }
+  shown_.push_back(shown);
+  const auto read = read_shown(node, shown, std::move(context));
+  shown_.pop_back();
+  return read;
+}
+
+SvgReader::Done SvgReader::read_shown(const XmlNode& use, const XmlNode& shown, SvgContext context) {
   const auto length = [&](const char* name, double whole, double otherwise) {
-    const XmlAttribute attribute = node.attribute(name);
+    const XmlAttribute attribute = use.attribute(name);
     return attribute ? parse_svg_length(attribute.value(), whole).value_or(otherwise) : otherwise;
   };
   const Vector2 corner(length("x", context.whole.x(), 0.0), length("y", context.whole.y(), 0.0));
   context.root_from_user = context.root_from_user * Eigen::Translation2d(corner);
-  const XmlNode shown = found->second;
   if (local_name(shown.name()) != "symbol") return read_element(shown, context);
   SvgContext within;
-  if (const auto entered = enter(shown, context, within); !entered) return entered;
+  if (!enter(shown, context, within)) return {};
   const Vector2 size(length("width", context.whole.x(), context.whole.x()),
                      length("height", context.whole.y(), context.whole.y()));
   return read_nested(shown, within, size);
@@ -313,7 +413,7 @@ SvgReader::Done SvgReader::read_element(const XmlNode& node, const SvgContext& a
   if (const auto charged = charge(node); !charged) return charged;
   if (is_skipped(node)) return {};
   SvgContext context;
-  if (const auto entered = enter(node, around, context); !entered) return entered;
+  if (!enter(node, around, context)) return {};
   if (!context.style.displayed && !is_layer) {
     notes_.tell(node, "a hidden element is skipped");
     return {};
@@ -340,7 +440,7 @@ SvgReader::Done SvgReader::read_layer(const XmlNode& group, const SvgContext& ro
   const bool was_loose = is_loose_layer_;
   begin_layer(std::move(name), false);
   SvgNotes unheard(xml_);
-  const bool is_shown = svg_style_of(group, root.style, 1.0, unheard).displayed;
+  const bool is_shown = style_of(group, root, unheard).displayed;
   const std::size_t index = drawing_.layers.size() - 1;
   drawing_.layers[index].visible = is_shown && !own_flag_of(xml_, group, kHiddenAttribute);
   drawing_.layers[index].locked = own_flag_of(xml_, group, kLockedAttribute);
@@ -365,26 +465,28 @@ SvgReader::Done SvgReader::read_top(const XmlNode& node, const SvgContext& root)
 }
 
 /// Paper and units: width, height and viewBox of the outermost element.
-SvgReader::Done SvgReader::read_root_frame(SvgContext& context) {
+void SvgReader::read_root_frame(SvgContext& context) {
   const XmlNode root = xml_.root();
   const Vector2 paper = drawing_.size / kMetresOfSvgUnit;  // where the file tells none
   const Vector2 whole = svg_view_box_size(root).value_or(paper);
-  Vector2 size = whole;
+  const auto is_length = [](double units) {
+    return units > 0.0 && units * kMetresOfSvgUnit <= kFarthestSvgPoint;
+  };
+  Vector2 size = whole.unaryExpr(is_length).all() ? whole : paper;
   for (int i = 0; i < 2; ++i) {
     const XmlAttribute side = root.attribute(i == 0 ? "width" : "height");
     if (!side || std::string_view(side.value()) == "auto") continue;
     const auto length = parse_svg_length(side.value(), whole[i]);
-    if (!length || !(*length > 0.0) || !(*length * kMetresOfSvgUnit <= kFarthestSvgPoint))
-      return xml_.fail_at(root, fmt::format("the {} {} is no length above 0 and up to {:g} m", side.name(),
-                                            quoted_value(side.value()), kFarthestSvgPoint));
-    size[i] = *length;
+    if (length && is_length(*length))
+      size[i] = *length;
+    else
+      notes_.tell(root, fmt::format("the {} {} is no length above 0 and up to {:g} m, and is left out",
+                                    side.name(), quoted_value(side.value()), kFarthestSvgPoint));
   }
-  const auto viewport = svg_viewport(root, size);
-  if (!viewport) return xml_.fail_at(root, viewport.error().message);
-  metres_from_root_ = Eigen::Scaling(kMetresOfSvgUnit) * viewport->outer_from_inner;
-  context.whole = viewport->size;
+  const SvgViewport viewport = viewport_of(root, size);
+  metres_from_root_ = Eigen::Scaling(kMetresOfSvgUnit) * viewport.outer_from_inner;
+  context.whole = viewport.size;
   drawing_.size = own_size_of(xml_).value_or(Vector2(size * kMetresOfSvgUnit));
-  return {};
 }
 
 base::Result<DrawingRead> SvgReader::read() {
@@ -392,12 +494,12 @@ base::Result<DrawingRead> SvgReader::read() {
   if (local_name(root.name()) != "svg")
     return xml_.fail_at(
         root, fmt::format("it is no SVG, which begins with <svg>, but <{}>", base::shown_text(root.name())));
-  index_ids();
+  index();
   SvgContext outside, context;
-  if (const auto framed = read_root_frame(outside); !framed) return tl::unexpected(framed.error());
-  if (const auto entered = enter(root, outside, context); !entered) return tl::unexpected(entered.error());
-  for (const XmlNode node : root.children())
-    if (const auto read = read_top(node, context); !read) return tl::unexpected(read.error());
+  read_root_frame(outside);
+  if (enter(root, outside, context))
+    for (const XmlNode node : root.children())
+      if (const auto read = read_top(node, context); !read) return tl::unexpected(read.error());
   return DrawingRead{std::move(drawing_), notes_.lines()};
 }
 

@@ -16,11 +16,13 @@ struct DrawingRead {
       notes;  ///< what is skipped or taken otherwise: "drawing.svg:12: <text> is skipped"
 };
 
-/// Reads the lines and fills of an SVG file: all commands of paths and all shapes, with transforms, units and
-/// inherited looks. Groups directly below the root are layers; what lies outside of them goes to layers of
-/// its own ("Layer 1"), so that nothing changes its order. A subpath is a stroke each. What the project wrote
-/// into the file itself (svg_names.h) comes back as it was. Fails with file and line on what is no SVG, on
-/// path data, transforms and lengths that are faulty, and on files that draw without an end.
+/// Reads the lines and fills of an SVG file: all commands of paths and all shapes, with transforms, units,
+/// style sheets and inherited looks. Groups directly below the root are layers; what lies outside of them
+/// goes to layers of its own ("Layer 1"), so that nothing changes its order. A subpath is a stroke each; a
+/// fill of several that lie in or on each other is one more, whose lines are joined so that it has their
+/// holes. What the project wrote into the file itself (svg_names.h) comes back as it was. What is faulty in
+/// one element is left out and noted, a path from the fault on. Fails with file and line only on what is no
+/// XML or no SVG, and on files that draw more than can be kept.
 base::Result<DrawingRead> read_svg_drawing(const std::filesystem::path& file);
 
 /// Reads SVG out of memory; `name` is for errors and notes.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "drawing/svg/svg_frame.h"
 #include "drawing/svg/svg_scanner.h"
@@ -15,23 +16,19 @@ namespace icome::drawing {
 namespace {
 
 using base::Vector2;
-using Subpaths = base::Result<std::vector<SvgSubpath>>;
 
-/// Reads the lengths of an element; the first fault sticks.
+/// Reads the lengths of an element; the last fault sticks.
 class ShapeLengths {
  public:
   ShapeLengths(const XmlNode& node, const Vector2& whole) : node_(node), whole_(whole) {}
 
   double x(const char* name) { return length(name, whole_.x()).value_or(0.0); }
   double y(const char* name) { return length(name, whole_.y()).value_or(0.0); }
-  /// A radius, which may be given in percent of the whole's mean side.
-  double radius(const char* name) { return length(name, whole_.norm() / std::sqrt(2.0)).value_or(0.0); }
-  /// Nothing where it is missing or "auto".
-  std::optional<double> x_or_none(const char* name) { return length(name, whole_.x()); }
-  std::optional<double> y_or_none(const char* name) { return length(name, whole_.y()); }
-  void refuse_negative(const char* name, double value) {
-    if (value < 0.0) fault_ = fmt::format("{} of <{}> is negative", name, node_.name());
-  }
+  // Sizes and radii: nothing where they are missing, "auto" or negative.
+  std::optional<double> width(const char* name) { return size(name, whole_.x()); }
+  std::optional<double> height(const char* name) { return size(name, whole_.y()); }
+  /// May be given in percent of the whole's mean side.
+  std::optional<double> radius(const char* name) { return size(name, whole_.norm() / std::sqrt(2.0)); }
   const std::string& fault() const { return fault_; }
 
  private:
@@ -44,36 +41,45 @@ class ShapeLengths {
     return value;
   }
 
+  std::optional<double> size(const char* name, double whole) {
+    const auto value = length(name, whole);
+    if (!value || *value >= 0.0) return value;
+    fault_ = fmt::format("{} of <{}> is negative", name, node_.name());
+    return std::nullopt;
+  }
+
   XmlNode node_;
   Vector2 whole_;
   std::string fault_;
 };
 
-Subpaths built_shape(SvgPathBuilder& builder, const ShapeLengths& lengths) {
-  if (!lengths.fault().empty()) return base::fail(lengths.fault());
-  return builder.take();
+SvgShape built_shape(SvgPathBuilder& builder, const ShapeLengths& lengths) {
+  return {builder.take(), lengths.fault()};
 }
 
-Subpaths line_shape(ShapeLengths lengths) {
+SvgShape line_shape(ShapeLengths lengths) {
   SvgPathBuilder builder;
   builder.move_to({lengths.x("x1"), lengths.y("y1")});
   builder.line_to({lengths.x("x2"), lengths.y("y2")});
   return built_shape(builder, lengths);
 }
 
-Subpaths polygon_shape(std::string_view points, bool is_closed) {
+SvgShape polygon_shape(std::string_view points, bool is_closed) {
   SvgPathBuilder builder;
   SvgScanner scanner(points);
+  std::string fault;
   for (bool is_first = true; !scanner.at_end(); is_first = false) {
     const std::string_view begin = scanner.rest();
     const auto x = scanner.number(), y = scanner.number();
-    if (!x || !y)
-      return base::fail(fmt::format("{} in the points is no pair of numbers", quoted_value(begin)));
+    if (!x || !y) {
+      fault = fmt::format("{} in the points is no pair of numbers", quoted_value(begin));
+      break;
+    }
     if (is_first) builder.move_to({*x, *y});
     if (!is_first) builder.line_to({*x, *y});
   }
   if (is_closed) builder.close();
-  return builder.take();
+  return {builder.take(), std::move(fault)};
 }
 
 void add_ellipse(SvgPathBuilder& builder, const Vector2& centre, const Vector2& radii) {
@@ -84,13 +90,12 @@ void add_ellipse(SvgPathBuilder& builder, const Vector2& centre, const Vector2& 
   builder.close();
 }
 
-Subpaths ellipse_shape(ShapeLengths lengths, bool is_circle) {
+SvgShape ellipse_shape(ShapeLengths lengths, bool is_circle) {
   SvgPathBuilder builder;
   const Vector2 centre(lengths.x("cx"), lengths.y("cy"));
-  const auto rx = is_circle ? lengths.radius("r") : lengths.x_or_none("rx");
-  const auto ry = is_circle ? rx : lengths.y_or_none("ry");
+  const auto rx = is_circle ? lengths.radius("r") : lengths.width("rx");
+  const auto ry = is_circle ? rx : lengths.height("ry");
   const Vector2 radii(rx.value_or(ry.value_or(0.0)), ry.value_or(rx.value_or(0.0)));
-  lengths.refuse_negative("a radius", radii.minCoeff());
   add_ellipse(builder, centre, radii);
   return built_shape(builder, lengths);
 }
@@ -113,14 +118,12 @@ void add_rectangle(SvgPathBuilder& builder, const Vector2& corner, const Vector2
   builder.close();
 }
 
-Subpaths rectangle_shape(ShapeLengths lengths) {
+SvgShape rectangle_shape(ShapeLengths lengths) {
   SvgPathBuilder builder;
   const Vector2 corner(lengths.x("x"), lengths.y("y"));
-  const Vector2 size(lengths.x("width"), lengths.y("height"));
-  lengths.refuse_negative("width or height", size.minCoeff());
-  const auto rx = lengths.x_or_none("rx"), ry = lengths.y_or_none("ry");
+  const Vector2 size(lengths.width("width").value_or(0.0), lengths.height("height").value_or(0.0));
+  const auto rx = lengths.width("rx"), ry = lengths.height("ry");
   const Vector2 radii(rx.value_or(ry.value_or(0.0)), ry.value_or(rx.value_or(0.0)));
-  lengths.refuse_negative("a radius", radii.minCoeff());
   if (size.minCoeff() > 0.0) add_rectangle(builder, corner, size, radii.cwiseMin(0.5 * size));
   return built_shape(builder, lengths);
 }
@@ -132,7 +135,7 @@ constexpr std::array<std::string_view, 7> kShapeNames = {"path", "line",   "poly
 
 bool is_svg_shape(std::string_view name) { return std::ranges::count(kShapeNames, name) > 0; }
 
-Subpaths svg_shape_of(const XmlNode& node, const Vector2& whole) {
+SvgShape svg_shape_of(const XmlNode& node, const Vector2& whole) {
   const std::string_view name = local_name(node.name());
   if (name == "path") return parse_svg_path(node.attribute("d").value());
   if (name == "polyline" || name == "polygon")

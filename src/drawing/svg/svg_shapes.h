@@ -1,8 +1,6 @@
 #pragma once
 #include <string_view>
-#include <vector>
 
-#include "base/result.h"
 #include "drawing/svg/svg_path.h"
 #include "drawing/svg/xml_text.h"
 
@@ -12,8 +10,8 @@ namespace icome::drawing {
 /// ellipse?
 bool is_svg_shape(std::string_view name);
 
-/// The outline that such an element draws, in its user units. Percent are of `whole`. Fails with the end of a
-/// sentence that begins with file and line.
-base::Result<std::vector<SvgSubpath>> svg_shape_of(const XmlNode& node, const base::Vector2& whole);
+/// The outline that such an element draws, in its user units. Percent are of `whole`. Lengths that are none
+/// count as not there, which the fault tells; paths and polygons end before a fault.
+SvgShape svg_shape_of(const XmlNode& node, const base::Vector2& whole);
 
 }  // namespace icome::drawing

@@ -119,8 +119,8 @@ void StyleSetter::set_rest(std::string_view name, std::string_view value) {
     style_.visible = value == "visible";
   } else if (name == "display") {
     style_.displayed = value != "none";
-  } else if (name == "fill-rule" && value == "evenodd") {
-    notes_.tell(node_, "fill-rule evenodd is taken as nonzero");
+  } else if (name == "fill-rule" && value != "inherit") {
+    style_.rule = value == "evenodd" ? FillRule::EvenOdd : FillRule::NonZero;
   } else if (std::ranges::count(kSkippedProperties, name) > 0 && value != "none" && value != "normal") {
     notes_.tell(node_, fmt::format("{} is skipped", name));
   }
@@ -128,40 +128,66 @@ void StyleSetter::set_rest(std::string_view name, std::string_view value) {
 
 void StyleSetter::set(std::string_view name, std::string_view value) {
   value = trimmed_css(value);
-  if (const std::size_t important = value.find("!important"); important != std::string_view::npos)
-    value = trimmed_css(value.substr(0, important));
   if (!set_paint(name, value) && !set_number(name, value)) set_rest(name, value);
 }
 
-/// Calls `use` with the names and values of a style attribute.
+/// The place of the semicolon that ends a declaration, which may hold others between quotes and brackets.
+std::size_t end_of_declaration(std::string_view text) {
+  char quote = '\0';
+  bool in_brackets = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quote != '\0') {
+      if (c == quote) quote = '\0';
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '(' || c == ')') {
+      in_brackets = c == '(';
+    } else if (c == ';' && !in_brackets) {
+      return i;
+    }
+  }
+  return text.size();
+}
+
+/// Calls `use` with the names and values of declarations: with those that are important, or with the others.
 template <typename Use>
-void for_each_declaration(std::string_view text, const Use& use) {
+void for_each_declaration(std::string_view text, bool is_important, const Use& use) {
   while (!text.empty()) {
-    const std::string_view declaration = text.substr(0, text.find(';'));
+    const std::string_view declaration = text.substr(0, end_of_declaration(text));
     text.remove_prefix(std::min(declaration.size() + 1, text.size()));
     const std::size_t colon = declaration.find(':');
-    if (colon < declaration.size())
-      use(trimmed_css(declaration.substr(0, colon)), declaration.substr(colon + 1));
+    if (colon >= declaration.size()) continue;
+    std::string_view value = trimmed_css(declaration.substr(colon + 1));
+    const std::size_t mark = value.rfind('!');
+    const bool is_marked =
+        mark < value.size() && io::same_word(trimmed_css(value.substr(mark + 1)), "important");
+    if (is_marked) value = trimmed_css(value.substr(0, mark));
+    if (is_marked == is_important) use(trimmed_css(declaration.substr(0, colon)), value);
   }
 }
 
 }  // namespace
 
-SvgStyle svg_style_of(const XmlNode& node, const SvgStyle& around, double whole, SvgNotes& notes) {
+SvgStyle svg_style_of(const XmlNode& node, const SvgStyle& around,
+                      std::span<const std::string_view> declarations, double whole, SvgNotes& notes) {
   SvgStyle style = around;
   style.displayed = true;
   StyleSetter setter(style, around, whole, node, notes);
-  const std::string_view declarations = node.attribute("style").value();
+  const std::string_view own = node.attribute("style").value();
+  const auto for_each_property = [&](const auto& use) {
+    for (const XmlAttribute attribute : node.attributes()) use(attribute.name(), attribute.value());
+    for (const bool is_important : {false, true}) {
+      for (const std::string_view some : declarations) for_each_declaration(some, is_important, use);
+      for_each_declaration(own, is_important, use);
+    }
+  };
   // Colours may refer to this one, wherever it stands.
-  const auto set_current = [&](std::string_view name, std::string_view value) {
+  for_each_property([&](std::string_view name, std::string_view value) {
     if (name != "color") return;
     if (const auto colour = parse_css_colour(trimmed_css(value))) style.current = *colour;
-  };
-  for (const XmlAttribute attribute : node.attributes()) set_current(attribute.name(), attribute.value());
-  for_each_declaration(declarations, set_current);
-  for (const XmlAttribute attribute : node.attributes()) setter.set(attribute.name(), attribute.value());
-  for_each_declaration(declarations,
-                       [&](std::string_view name, std::string_view value) { setter.set(name, value); });
+  });
+  for_each_property([&](std::string_view name, std::string_view value) { setter.set(name, value); });
   style.opacity = around.opacity * setter.own_opacity();
   return style;
 }

@@ -57,27 +57,54 @@ Quintic slope_of_distance(const CubicBezier& part, const Vector2& point, double 
           to};
 }
 
-/// The first t between `low` and `high`, where the slope has different signs, to the last few bits: Newton's
-/// steps where they stay inside, halving where they do not.
-double root_between(const CubicBezier& curve, const Vector2& point, double low, double high, bool rising) {
-  double t = 0.5 * (low + high);
-  for (int step = 0; step < 60; ++step) {
+constexpr double kRootStep = 1e-12;  // Newton's steps square their error: the one after this is rounding
+
+/// The t between `low` and `high`, where the slope has different signs, from `t` on: Newton's steps where
+/// they stay inside, halving where they do not.
+double root_between(const CubicBezier& curve, const Vector2& point, double low, double high, double t) {
+  constexpr int kNewtonSteps = 20, kRootHalvings = 50;
+  for (int step = 0; step < kNewtonSteps + kRootHalvings; ++step) {
     const Vector2 away = curve.at(t) - point;
     const Vector2 first = curve.derivative(t);
     const double slope = away.dot(first);
-    ((slope > 0.0) == rising ? high : low) = t;
+    (slope > 0.0 ? high : low) = t;
     const double steepness = first.squaredNorm() + away.dot(curve.second_derivative(t));
     const double next = t - slope / steepness;
-    if (std::abs(next - t) <= 1e-15) return t;
-    t = next > low && next < high ? next : 0.5 * (low + high);
+    if (step >= kNewtonSteps || !(next >= low && next <= high)) {
+      t = 0.5 * (low + high);
+    } else {
+      const bool is_there = std::abs(next - t) <= kRootStep;
+      t = next;
+      if (is_there) return t;
+    }
   }
   return t;
 }
 
+constexpr int kSlopeHalvings = 40;
+
 /// Searches the roots of an interval that is halved until each has at most one.
 class RootSearch {
  public:
-  RootSearch(const CubicBezier& curve, const Vector2& point) : curve_(curve), point_(point) {}
+  RootSearch(const CubicBezier& curve, const Vector2& point, double guess)
+      : curve_(curve), point_(point), guess_(guess) {}
+
+  /// The whole part with its ends. Where the slope changes its sign at most once, they need not be offered
+  /// unless they are it.
+  void search_part(const Quintic& part, double negligible) {
+    const bool is_flat = !(part.largest() > negligible);
+    const int changes = part.sign_changes();
+    const bool is_rising = first_sign(part) < 0.0;
+    if (is_flat || changes > 1 || (changes == 1 && !is_rising)) {
+      offer(part.from);
+      search(part, negligible, kSlopeHalvings);
+      offer(part.to);
+    } else if (changes == 1) {
+      offer_root(part);
+    } else {
+      offer(is_rising ? part.to : part.from);
+    }
+  }
 
   void offer(double t) {
     const Vector2 place = curve_.at(t);
@@ -94,8 +121,7 @@ class RootSearch {
       offer(0.5 * (interval.from + interval.to));  // the distance does not change here, as far as can be told
     } else if (changes == 1) {
       // Only where the distance stops falling is it least.
-      const double first = first_sign(interval);
-      if (first < 0.0) offer(root_between(curve_, point_, interval.from, interval.to, true));
+      if (first_sign(interval) < 0.0) offer_root(interval);
     } else {
       const Quintic right = interval.halve();
       if (right.c[0] == 0.0) offer(right.from);  // a root that neither half has inside
@@ -107,6 +133,13 @@ class RootSearch {
   const NearestOnCurve& best() const { return best_; }
 
  private:
+  /// The only root of an interval in which the slope rises through zero.
+  void offer_root(const Quintic& interval) {
+    const bool is_inside = guess_ > interval.from && guess_ < interval.to;
+    const double begin = is_inside ? guess_ : 0.5 * (interval.from + interval.to);
+    offer(root_between(curve_, point_, interval.from, interval.to, begin));
+  }
+
   static double first_sign(const Quintic& interval) {
     for (const double value : interval.c)
       if (value != 0.0) return value;
@@ -115,29 +148,31 @@ class RootSearch {
 
   const CubicBezier& curve_;
   Vector2 point_;
+  double guess_;
   NearestOnCurve best_;
   bool found_ = false;
 };
 
-constexpr int kSlopeHalvings = 40;
 constexpr double kSlopeRounding = 1e-14;  // of the greatest products that the slope is a sum of
 
 }  // namespace
 
-NearestOnCurve nearest_on_curve(const CubicBezier& curve, const Vector2& point, double from, double to) {
-  RootSearch search(curve, point);
-  search.offer(from);
+NearestOnCurve nearest_on_curve(const CubicBezier& curve, const Vector2& point, double from, double to,
+                                double guess) {
   const bool whole = from <= 0.0 && to >= 1.0;
   const CubicBezier part = whole ? curve : curve.part(from, to);
-  const Quintic slope = slope_of_distance(part, point, from, to);
   double away = 0.0;
   double way = 0.0;
   for (std::size_t i = 0; i < 4; ++i) away = std::max(away, (part.points[i] - point).squaredNorm());
   for (std::size_t i = 0; i < 3; ++i)
     way = std::max(way, (part.points[i + 1] - part.points[i]).squaredNorm());
-  search.search(slope, kSlopeRounding * std::sqrt(away * way), kSlopeHalvings);
-  search.offer(to);
+  RootSearch search(curve, point, guess);
+  search.search_part(slope_of_distance(part, point, from, to), kSlopeRounding * std::sqrt(away * way));
   return search.best();
+}
+
+NearestOnCurve nearest_on_curve(const CubicBezier& curve, const Vector2& point, double from, double to) {
+  return nearest_on_curve(curve, point, from, to, 0.5 * (from + to));
 }
 
 }  // namespace icome::geometry

@@ -16,4 +16,8 @@ struct NearestOnCurve {
 NearestOnCurve nearest_on_curve(const CubicBezier& curve, const Vector2& point, double from = 0.0,
                                 double to = 1.0);
 
+/// The same; it takes less time where a place is known that is near the answer.
+NearestOnCurve nearest_on_curve(const CubicBezier& curve, const Vector2& point, double from, double to,
+                                double guess);
+
 }  // namespace icome::geometry

@@ -216,54 +216,91 @@ SmoothSpline SmoothSpline::moved_by(const std::vector<double>& step) const {
   return moved;
 }
 
-double SmoothSpline::bring_near(std::span<const Vector2> points, const Freedom& freedom, double enough,
-                                int most_rounds) {
+/// The state of the rounds that bring a spline near to points.
+struct SmoothSpline::Approach {
+  std::span<const Vector2> points;
+  std::vector<Place> places;  // of the points on the spline as it is
+  double greatest;            // distance of these
+  double power = 2.0;         // of distances, whose sum a round lessens
+  double damping = kFirstDamping;
+  std::vector<Joint> best;  // so far, by the greatest distance
+  std::vector<Place> best_places;
+  double least;
+
+  void keep_if_best(const SmoothSpline& spline) {
+    if (!(greatest < least)) return;
+    best = spline.joints_;
+    best_places = places;
+    least = greatest;
+  }
+};
+
+SmoothSpline::Approach SmoothSpline::begin_approach(std::span<const Vector2> points) const {
   std::vector<double> lengths;
   for (std::size_t i = 0; i < segments(); ++i) lengths.push_back(segment(i).length());
-  auto places = spread_evenly<Place>(points, lengths);
-  double greatest = find_places(points, places, kStepsAtFirst);
-  std::vector<Joint> best = joints_;
-  std::vector<Place> best_places = places;
-  double least = greatest;
-  Normal normal(joints_.size());
-  double damping = kFirstDamping;
-  double power = 2.0;
-  for (int round = 0; round < most_rounds && least > kAim * enough && std::isfinite(greatest); ++round) {
-    if (round == kEvenRounds) power = kHighPower;
-    const double scale = greatest;
-    const double before = sum_of_powers(places, scale, power);
-    normal.begin(*this, freedom);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      normal.add(places[i], points[i], std::pow(places[i].distance / scale, power - 2.0) + kLeastWeight);
-    bool better = false;
-    for (int attempt = 0; attempt < kMostAttempts && !better; ++attempt) {
-      const std::vector<double> step = normal.step(damping);
-      damping *= kMoreDamping;
-      if (step.empty()) continue;
-      SmoothSpline moved = moved_by(step);
-      std::vector<Place> moved_places = places;
-      const double moved_greatest = moved.find_places(points, moved_places, kStepsAgain);
-      better = sum_of_powers(moved_places, scale, power) < before;
-      if (!better) continue;
-      joints_ = std::move(moved.joints_);
-      places = std::move(moved_places);
-      greatest = moved_greatest;
-      damping *= kLessDamping;
-    }
-    const bool slow = better && power > 2.0 && greatest > kSlow * scale;
-    if (greatest < least) {
-      best = joints_;
-      best_places = places;
-      least = greatest;
-    }
-    if (slow || (!better && power > 2.0)) break;
-    if (!better) {
-      power = kHighPower;
-      damping = kFirstDamping;
-    }
+  Approach approach{.points = points,
+                    .places = spread_evenly<Place>(points, lengths),
+                    .greatest = 0.0,
+                    .best = joints_,
+                    .best_places = {},
+                    .least = 0.0};
+  approach.greatest = approach.least = find_places(points, approach.places, kStepsAtFirst);
+  approach.best_places = approach.places;
+  return approach;
+}
+
+/// Takes the step of the normal equations, damped more and more until the sum of powers is less; false where
+/// it does not get less.
+bool SmoothSpline::take_step(const Normal& normal, Approach& approach, double scale) {
+  const double before = sum_of_powers(approach.places, scale, approach.power);
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    const std::vector<double> step = normal.step(approach.damping);
+    approach.damping *= kMoreDamping;
+    if (step.empty()) continue;
+    SmoothSpline moved = moved_by(step);
+    std::vector<Place> moved_places = approach.places;
+    const double moved_greatest = moved.find_places(approach.points, moved_places, kStepsAgain);
+    if (!(sum_of_powers(moved_places, scale, approach.power) < before)) continue;
+    joints_ = std::move(moved.joints_);
+    approach.places = std::move(moved_places);
+    approach.greatest = moved_greatest;
+    approach.damping *= kLessDamping;
+    return true;
   }
-  joints_ = std::move(best);
-  return note_errors(points, best_places, kResolution * enough);
+  return false;
+}
+
+/// One round: points count by a power of their distance. False where more rounds are of no use.
+bool SmoothSpline::run_round(Normal& normal, const Freedom& freedom, Approach& approach) {
+  const double scale = approach.greatest;
+  normal.begin(*this, freedom);
+  for (std::size_t i = 0; i < approach.points.size(); ++i) {
+    const Place& place = approach.places[i];
+    normal.add(place, approach.points[i],
+               std::pow(place.distance / scale, approach.power - 2.0) + kLeastWeight);
+  }
+  const bool better = take_step(normal, approach, scale);
+  const bool is_late = approach.power > 2.0;
+  approach.keep_if_best(*this);
+  if (is_late) return better && !(approach.greatest > kSlow * scale);
+  if (!better) {
+    approach.power = kHighPower;
+    approach.damping = kFirstDamping;
+  }
+  return true;
+}
+
+double SmoothSpline::bring_near(std::span<const Vector2> points, const Freedom& freedom, double enough,
+                                int most_rounds) {
+  Approach approach = begin_approach(points);
+  Normal normal(joints_.size());
+  for (int round = 0; round < most_rounds; ++round) {
+    if (!(approach.least > kAim * enough) || !std::isfinite(approach.greatest)) break;
+    if (round == kEvenRounds) approach.power = kHighPower;
+    if (!run_round(normal, freedom, approach)) break;
+  }
+  joints_ = std::move(approach.best);
+  return note_errors(points, approach.best_places, kResolution * enough);
 }
 
 void SmoothSpline::replace(std::size_t first, std::size_t last, const SmoothSpline& part) {

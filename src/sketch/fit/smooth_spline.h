@@ -54,6 +54,10 @@ class SmoothSpline {
  private:
   struct Place;
   class Normal;
+  struct Approach;
+  Approach begin_approach(std::span<const Vector2> points) const;
+  bool run_round(Normal& normal, const Freedom& freedom, Approach& approach);
+  bool take_step(const Normal& normal, Approach& approach, double scale);
   double note_errors(std::span<const Vector2> points, const std::vector<Place>& places, double resolution);
   /// The place of the line through the points that belongs to a joint.
   Vector2 beside_joint(std::span<const Vector2> points, std::size_t joint) const;

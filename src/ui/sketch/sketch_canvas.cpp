@@ -104,17 +104,18 @@ void SketchCanvas::refresh() {
 
 void SketchCanvas::renew_picture() {
   late_picture_.stop();
+  const bool is_shifted = picture_.can_shift_to(view_);
   QElapsedTimer time;
   time.start();
   const QRect part = picture_.show(document_.shown(), view_, size(), devicePixelRatioF());
-  if (part == rect()) whole_picture_seconds_ = 1e-9 * double(time.nsecsElapsed());
+  if (part == rect() && !is_shifted) whole_picture_seconds_ = 1e-9 * double(time.nsecsElapsed());
   update();
 }
 
 void SketchCanvas::change_view(const std::function<void(PaperView&)>& change) {
   if (contact_ == Contact::Tool) return;  // what is being drawn stays under the pen
   change(view_);
-  if (whole_picture_seconds_ < kQuickPicture) return renew_picture();
+  if (whole_picture_seconds_ < kQuickPicture || picture_.can_shift_to(view_)) return renew_picture();
   late_picture_.start(kViewRests);
   update();
 }

@@ -11,15 +11,12 @@ namespace {
 using base::Vector2;
 
 std::vector<SvgSubpath> path_of(const char* data) {
-  const auto read = parse_svg_path(data);
-  EXPECT_TRUE(read) << read.error().message;
-  return read.value_or(std::vector<SvgSubpath>());
+  SvgShape read = parse_svg_path(data);
+  EXPECT_EQ(read.fault, "");
+  return std::move(read.subpaths);
 }
 
-std::string path_fault(const char* data) {
-  const auto read = parse_svg_path(data);
-  return read ? "" : read.error().message;
-}
+std::string path_fault(const char* data) { return parse_svg_path(data).fault; }
 
 TEST(SvgPath, ReadsPackedNumbers) {
   const auto path = path_of("M1.5.5-3e2-4L+1,2");
@@ -97,6 +94,15 @@ TEST(SvgPath, TellsFaults) {
   EXPECT_EQ(path_fault("M1 1X"), "the path data has no command 'X'");
   EXPECT_EQ(path_fault("M1 1A1 1 0 2 0 1 1"),
             "'2' stands in the path data where a number of 'A' is expected");
+}
+
+TEST(SvgPath, DrawsUpToAFault) {
+  EXPECT_TRUE(parse_svg_path("L1 1M2 2L3 3").subpaths.empty()) << "nothing comes before the first command";
+  const SvgShape cut = parse_svg_path("M1 1L2 2 3 3C4 4 5 5 6 x M7 7L8 8");
+  ASSERT_EQ(cut.subpaths.size(), 1U) << "nothing behind the fault is drawn";
+  ASSERT_EQ(cut.subpaths[0].segments.size(), 2U) << "the curve whose point is faulty is left out";
+  EXPECT_EQ(cut.subpaths[0].segments[1].points[3], Vector2(3.0, 3.0));
+  EXPECT_FALSE(cut.subpaths[0].closed);
 }
 
 }  // namespace

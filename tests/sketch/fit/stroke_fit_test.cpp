@@ -89,6 +89,22 @@ std::map<std::string, PenStroke> many_strokes() {
   return strokes;
 }
 
+constexpr int kStrokeShares = 6;
+
+/// Tests that hold every one of many strokes to something, a share of them each, so that shards share them
+/// out.
+class ShareOfStrokes : public ::testing::TestWithParam<int> {
+ protected:
+  static std::map<std::string, PenStroke> share() {
+    std::map<std::string, PenStroke> strokes;
+    int number = 0;
+    for (const auto& [name, stroke] : many_strokes())
+      if (number++ % kStrokeShares == GetParam()) strokes.emplace(name, stroke);
+    return strokes;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(FitStroke, ShareOfStrokes, ::testing::Range(0, kStrokeShares));
+
 FitSettings fit_settings(FitMethod method, bool refit, double error = kFitError) {
   FitSettings settings;
   settings.method = method;
@@ -139,8 +155,8 @@ void expect_within_what_it_says(const PenStroke& stroke, const FittedStroke& fit
   EXPECT_LE(dense_distance(places_of(stroke), fitted.curve.segments), fitted.error + bends + 1e-15);
 }
 
-TEST(FitStroke, ExactFitsAreWithinTheBoundByDenseSampling) {
-  for (const auto& [name, stroke] : many_strokes()) {
+TEST_P(ShareOfStrokes, ExactFitsAreWithinTheBoundByDenseSampling) {
+  for (const auto& [name, stroke] : share()) {
     for (const bool refit : {true, false}) {
       SCOPED_TRACE(name + (refit ? "" : ", as drawn"));
       const FittedStroke fitted = fit_stroke(stroke, fit_settings(FitMethod::Exact, refit));
@@ -151,8 +167,8 @@ TEST(FitStroke, ExactFitsAreWithinTheBoundByDenseSampling) {
   }
 }
 
-TEST(FitStroke, FitsOfTheThesisTellTheirTrueError) {
-  for (const auto& [name, stroke] : many_strokes()) {
+TEST_P(ShareOfStrokes, FitsOfTheThesisTellTheirTrueError) {
+  for (const auto& [name, stroke] : share()) {
     SCOPED_TRACE(name);
     const FittedStroke fitted = fit_stroke(stroke, fit_settings(FitMethod::Thesis, true));
     expect_sound(stroke, fitted);
@@ -161,9 +177,9 @@ TEST(FitStroke, FitsOfTheThesisTellTheirTrueError) {
 }
 
 // The shared samples lie outside of a segment; none or many of them are the hardest for its sums.
-TEST(FitStroke, FitsOfTheThesisAreSoundWithAnyNumberOfSharedSamples) {
+TEST_P(ShareOfStrokes, FitsOfTheThesisAreSoundWithAnyNumberOfSharedSamples) {
   for (const unsigned shared : {0U, 1U, 10U, 50U}) {
-    for (const auto& [name, stroke] : many_strokes()) {
+    for (const auto& [name, stroke] : share()) {
       SCOPED_TRACE(name + ", shared " + std::to_string(shared));
       FitSettings settings = fit_settings(FitMethod::Thesis, true);
       settings.shared = shared;
@@ -185,8 +201,8 @@ void expect_same_at_scale(const PenStroke& stroke, FitMethod method, bool refit,
       EXPECT_LE((one.curve.segments[i].points[k] - other.curve.segments[i].points[k] / scale).norm(), close);
 }
 
-TEST(FitStroke, TheSameDrawingAtAnotherScaleHasTheSameCurve) {
-  for (const auto& [name, stroke] : many_strokes()) {
+TEST_P(ShareOfStrokes, TheSameDrawingAtAnotherScaleHasTheSameCurve) {
+  for (const auto& [name, stroke] : share()) {
     for (const double scale : {1000.0, 0.001}) {
       SCOPED_TRACE(name + " at " + std::to_string(scale));
       expect_same_at_scale(stroke, FitMethod::Exact, true, scale);

@@ -51,6 +51,11 @@ void expect_near(const Vector2& place, double x, double y) {
   EXPECT_NEAR(place.y(), y, 1e-6);
 }
 
+TEST(SketchTools, KnowEveryColourOfCssByName) {
+  const Page page({kLine, R"({"op": "colour", "stroke": 2, "colour": "Gold"})"});
+  EXPECT_EQ(page.stroke(2).colour, (Colour{1.0F, 215.0F / 255.0F, 0.0F}));
+}
+
 TEST(SketchTools, DrawMakesAStrokeWithItsWidthsAndLook) {
   const Page page(
       {R"({"op": "draw", "way": [[10, 10], [50, 10]], "pressures": [0, 1], "thinnest": 1, "widest": 3,

@@ -3,38 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 #include "base/parse_number.h"
 #include "interaction/operations/near_names.h"
+#include "io/web_colours.h"
 
 namespace icome::interaction {
 namespace {
-
-struct NamedColour {
-  const char* name;
-  std::uint32_t rgb;  // eight bits each, sRGB
-};
-
-/// The sixteen basic colours of CSS 1 and the orange that CSS 2.1 added.
-constexpr std::array<NamedColour, 17> kColours{{{"aqua", 0x00ffff},
-                                                {"black", 0x000000},
-                                                {"blue", 0x0000ff},
-                                                {"fuchsia", 0xff00ff},
-                                                {"gray", 0x808080},
-                                                {"green", 0x008000},
-                                                {"lime", 0x00ff00},
-                                                {"maroon", 0x800000},
-                                                {"navy", 0x000080},
-                                                {"olive", 0x808000},
-                                                {"orange", 0xffa500},
-                                                {"purple", 0x800080},
-                                                {"red", 0xff0000},
-                                                {"silver", 0xc0c0c0},
-                                                {"teal", 0x008080},
-                                                {"white", 0xffffff},
-                                                {"yellow", 0xffff00}}};
 
 world::Colour colour_of(std::uint32_t rgb) {
   const auto part = [rgb](unsigned shift) { return float((rgb >> shift) & 0xffU) / 255.0F; };
@@ -54,15 +30,15 @@ base::Result<world::Colour> colour_from_text(std::string_view text) {
     if (rgb && said.size() == kLength) return colour_of(*rgb);
     return base::fail(fmt::format("'{}' is no colour: say #rrggbb with six digits, such as #ff8000", text));
   }
-  const auto found = std::ranges::find(kColours, said, &NamedColour::name);
-  if (found != kColours.end()) return colour_of(found->rgb);
+  constexpr std::uint32_t kCovers = 0xff;  // all but "transparent"
+  const auto named = io::web_colour(said);
+  if (named && (*named & 0xffU) == kCovers) return colour_of(*named >> 8U);
   return base::fail(fmt::format("there is no colour '{}'{}", text, suggestion(said, colour_names())));
 }
 
 std::vector<std::string> colour_names() {
-  std::vector<std::string> names;
-  for (const NamedColour& colour : kColours) names.emplace_back(colour.name);
-  return names;
+  const std::vector<std::string_view> names = io::web_colour_names();
+  return {names.begin(), names.end()};
 }
 
 }  // namespace icome::interaction

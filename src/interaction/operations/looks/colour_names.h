@@ -8,8 +8,8 @@
 
 namespace icome::interaction {
 
-/// The colour of "#rrggbb" or of one of the basic names of CSS ("red", "navy", ...), in any case of letters.
-/// Fails with what may have been meant.
+/// The colour of "#rrggbb" or of one of the names of CSS ("red", "gold", "navy", ...), in any case of
+/// letters; not "transparent", which is none. Fails with what may have been meant.
 base::Result<world::Colour> colour_from_text(std::string_view text);
 
 /// The names, in alphabetical order.

@@ -111,12 +111,25 @@ TEST(MaterialLibrary, HoldsWhatAWorldTakes) {
 }
 
 TEST(ColourNames, AreReadBack) {
-  EXPECT_EQ(colour_names().size(), 17U);
+  EXPECT_EQ(colour_names().size(), 148U) << "CSS Color 4, 6.1";
   for (const std::string& name : colour_names()) EXPECT_TRUE(colour_from_text(name)) << name;
   EXPECT_EQ(colour_from_text("orange").value(), (Colour{1.0F, 165.0F / 255.0F, 0.0F}));
   EXPECT_EQ(colour_from_text("#00ff7f").value(), (Colour{0.0F, 1.0F, 127.0F / 255.0F}));
-  for (const char* text : {"", "#", "#12345", "#1234567", "#12345g", "#-12345", "0x123456", "redd"})
+  for (const char* text :
+       {"", "#", "#12345", "#1234567", "#12345g", "#-12345", "0x123456", "redd", "transparent"})
     EXPECT_FALSE(colour_from_text(text)) << text;
+  EXPECT_EQ(colour_from_text("golden").error().message, "there is no colour 'golden'; did you mean 'gold'?");
+}
+
+TEST(ColourNames, MeanTheSameAsInCss) {
+  const std::pair<const char*, const char*> same[] = {
+      {"aqua", "#00ffff"},   {"black", "#000000"},  {"blue", "#0000ff"},   {"fuchsia", "#ff00ff"},
+      {"gray", "#808080"},   {"green", "#008000"},  {"lime", "#00ff00"},   {"maroon", "#800000"},
+      {"navy", "#000080"},   {"olive", "#808000"},  {"orange", "#ffa500"}, {"purple", "#800080"},
+      {"red", "#ff0000"},    {"silver", "#c0c0c0"}, {"teal", "#008080"},   {"white", "#ffffff"},
+      {"yellow", "#ffff00"}, {"Gold", "#ffd700"},   {"indigo", "#4b0082"}, {"lightGrey", "#d3d3d3"}};
+  for (const auto& [name, digits] : same)
+    EXPECT_EQ(colour_from_text(name).value(), colour_from_text(digits).value()) << name;
 }
 
 TEST_F(LookOperations, RefuseWhatMakesNoSense) {
