@@ -13,19 +13,20 @@ struct Lens {
   double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
 };
 
-/// How the camera sees the table: between pixels of a frame and millimetres on the plane in which the upper faces
-/// of the triangles lie. (0, 0) mm is the table's upper left corner, x to the right and y down as the camera
-/// sees it. The centre of the upper left pixel is (0, 0).
+/// How the camera sees the table: between pixels of a frame and millimetres on the plane in which the upper
+/// faces of the triangles lie. (0, 0) mm is the table's upper left corner, x to the right and y down as the
+/// camera sees it. The centre of the upper left pixel is (0, 0).
 class TableView {
  public:
   /// The frame's corners are the table's: no lens, no perspective. Sizes > 0.
   static TableView whole_frame(int frame_width, int frame_height, double table_width, double table_height);
   /// A lens and the homography from millimetres to undistorted pixels (both in the plane of the upper faces).
   /// Fails when the homography cannot be inverted.
-  static base::Result<TableView> seen_by(const Lens& lens, const base::Matrix3& pixels_from_mm, int frame_width,
-                                         int frame_height, double table_width, double table_height);
-  /// Four corners of the table in the frame, clockwise from the upper left one (pixels). Fails when they make no
-  /// convex quadrangle.
+  static base::Result<TableView> seen_by(const Lens& lens, const base::Matrix3& pixels_from_mm,
+                                         int frame_width, int frame_height, double table_width,
+                                         double table_height);
+  /// Four corners of the table in the frame, clockwise from the upper left one (pixels). Fails when they make
+  /// no convex quadrangle.
   static base::Result<TableView> by_corners(const std::array<base::Vector2, 4>& corners, int frame_width,
                                             int frame_height, double table_width, double table_height);
 
@@ -36,6 +37,13 @@ class TableView {
   int frame_height() const { return frame_height_; }
   double table_width() const { return table_width_; }    ///< mm
   double table_height() const { return table_height_; }  ///< mm
+
+  bool bends() const { return bends_; }  ///< the lens makes straight edges curves
+  const Lens& lens() const { return lens_; }
+  const base::Matrix3& pixels_from_mm() const { return pixels_from_mm_; }  ///< to undistorted pixels
+  const base::Matrix3& mm_from_pixels() const { return mm_from_pixels_; }  ///< of undistorted pixels
+  /// The pixel where a lens that does not bend would see what this one sees at `pixel`.
+  base::Vector2 undistorted(const base::Vector2& pixel) const;
 
  private:
   TableView() = default;
@@ -48,7 +56,8 @@ class TableView {
   double table_width_ = 0, table_height_ = 0;
 };
 
-/// Reads and writes the view as TOML (what `icome track --calibrate` makes). Fails with the file and the line.
+/// Reads and writes the view as TOML (what `icome track --calibrate` makes). Fails with the file and the
+/// line.
 base::Result<TableView> read_table_view(const std::filesystem::path& path);
 base::Result<void> write_table_view(const TableView& view, const std::filesystem::path& path);
 
