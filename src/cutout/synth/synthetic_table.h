@@ -11,17 +11,17 @@ namespace icome::cutout {
 
 /// Frames of a table that is computed, with the truth: a benchmark of trackers. It is no camera.
 struct SyntheticOptions {
-  int width = 640, height = 480;                       ///< pixels
-  double table_width = 640, table_height = 480;        ///< mm
+  int width = 640, height = 480;                 ///< pixels
+  double table_width = 640, table_height = 480;  ///< mm
   int frames = 100;
-  double rate = 30;                                    ///< frames/s
-  KnownTriangles known;                                ///< all of them lie on the table
-  bool moving = true;                                  ///< else every frame has new places
-  bool hands = false;                                  ///< hands, sleeves and a watch reach in and hold triangles
-  double occlude = 0;                                  ///< share of each edge that is covered, 0 to 1
-  double noise = 3;                                    ///< standard deviation, of 255
-  int jpeg_quality = 90;                               ///< 0: frames as PNG
-  double blur = 0.7;                                   ///< standard deviation of the lens' blur, pixels
+  double rate = 30;       ///< frames/s
+  KnownTriangles known;   ///< all of them lie on the table
+  bool moving = true;     ///< else every frame has new places
+  bool hands = false;     ///< hands, sleeves and a watch reach in and hold triangles
+  double occlude = 0;     ///< share of each edge that is covered, 0 to 1
+  double noise = 3;       ///< standard deviation, of 255
+  int jpeg_quality = 90;  ///< 0: frames as PNG
+  double blur = 0.7;      ///< standard deviation of the lens' blur, pixels
   std::uint64_t seed = 1;
 };
 

@@ -19,10 +19,10 @@ struct FrameView {
 
 /// A picture that owns its pixels.
 struct Frame {
-  int width = 0;                   ///< pixels
-  int height = 0;                  ///< pixels
-  std::vector<std::uint8_t> bgr;   ///< 3 * width * height bytes
-  double time = 0;                 ///< s, since the source began
+  int width = 0;                  ///< pixels
+  int height = 0;                 ///< pixels
+  std::vector<std::uint8_t> bgr;  ///< 3 * width * height bytes
+  double time = 0;                ///< s, since the source began
 
   FrameView view() const { return {bgr.data(), width, height, 3 * static_cast<std::size_t>(width)}; }
 };
