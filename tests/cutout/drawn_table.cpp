@@ -1,0 +1,140 @@
+#include "cutout/drawn_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace icome::cutout {
+
+using base::Vector2;
+
+DrawnTable::DrawnTable(const TableView& view, DrawnColour table)
+    : view_(view), pixels_(std::size_t(view.frame_width()) * std::size_t(view.frame_height()), table) {}
+
+template <typename Inside>
+void DrawnTable::draw(const std::vector<Vector2>& around, DrawnColour colour, Inside&& inside) {
+  Vector2 least = Vector2::Constant(1e9), most = Vector2::Constant(-1e9);
+  for (const Vector2& mm : around) {
+    const Vector2 pixel = view_.to_pixel(mm);
+    least = least.cwiseMin(pixel);
+    most = most.cwiseMax(pixel);
+  }
+  const int left = std::max(0, int(least.x()) - 3),
+            right = std::min(view_.frame_width() - 1, int(most.x()) + 3);
+  const int top = std::max(0, int(least.y()) - 3),
+            bottom = std::min(view_.frame_height() - 1, int(most.y()) + 3);
+  for (int y = top; y <= bottom; ++y)
+    for (int x = left; x <= right; ++x) {
+      int in = 0;
+      int corners = 0;
+      for (int i = 0; i < 4; ++i) corners += inside(view_.to_table({x - 0.5 + (i & 1), y - 0.5 + (i >> 1)}));
+      if (corners == 4) {
+        in = 64;
+      } else {
+        for (int j = 0; j < 64; ++j)
+          in += inside(view_.to_table({x - 0.5 + (j % 8 + 0.5) / 8, y - 0.5 + (j / 8 + 0.5) / 8}));
+      }
+      const double share = in / 64.0;
+      DrawnColour& own = pixels_[std::size_t(y) * std::size_t(view_.frame_width()) + std::size_t(x)];
+      own.blue += share * (colour.blue - own.blue);
+      own.green += share * (colour.green - own.green);
+      own.red += share * (colour.red - own.red);
+    }
+}
+
+void DrawnTable::convex(const std::vector<Vector2>& corners, DrawnColour colour) {
+  double area = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    area += a.x() * b.y() - a.y() * b.x();
+  }
+  const double sense = area > 0 ? 1 : -1;
+  draw(corners, colour, [&](const Vector2& mm) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vector2 way = corners[(i + 1) % corners.size()] - corners[i], own = mm - corners[i];
+      if (sense * (way.x() * own.y() - way.y() * own.x()) < 0) return false;
+    }
+    return true;
+  });
+}
+
+void DrawnTable::triangle(const KnownTriangle& known, const TrianglePose& pose, DrawnColour colour) {
+  const auto corners = corners_of(known, pose);
+  convex({corners.begin(), corners.end()}, colour);
+}
+
+void DrawnTable::disc(const Vector2& centre, double radius, DrawnColour colour) {
+  std::vector<Vector2> around;
+  for (int i = 0; i < 4; ++i) around.push_back(centre + radius * Vector2(i & 1 ? 1 : -1, i & 2 ? 1 : -1));
+  draw(around, colour, [&](const Vector2& mm) { return (mm - centre).squaredNorm() < radius * radius; });
+}
+
+Frame DrawnTable::frame(double noise, std::uint64_t seed) const {
+  Frame frame;
+  frame.width = view_.frame_width();
+  frame.height = view_.frame_height();
+  frame.bgr.resize(3 * pixels_.size());
+  base::Random random(seed);
+  std::vector<double> one(pixels_.size()), other(pixels_.size());
+  const auto at = [&](int x, int y) {
+    return std::size_t(std::clamp(y, 0, frame.height - 1)) * std::size_t(frame.width) +
+           std::size_t(std::clamp(x, 0, frame.width - 1));
+  };
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+      one[i] = channel == 0 ? pixels_[i].blue : channel == 1 ? pixels_[i].green : pixels_[i].red;
+    for (int y = 0; y < frame.height; ++y)
+      for (int x = 0; x < frame.width; ++x)
+        other[at(x, y)] = 0.25 * one[at(x - 1, y)] + 0.5 * one[at(x, y)] + 0.25 * one[at(x + 1, y)];
+    for (int y = 0; y < frame.height; ++y)
+      for (int x = 0; x < frame.width; ++x) {
+        const double value = 0.25 * other[at(x, y - 1)] + 0.5 * other[at(x, y)] + 0.25 * other[at(x, y + 1)];
+        // The sum of three uniform numbers is near enough to a normal one.
+        const double off = noise * 2 * (random.uniform() + random.uniform() + random.uniform() - 1.5);
+        frame.bgr[3 * at(x, y) + channel] = std::uint8_t(std::clamp(value + off + 0.5, 0.0, 255.0));
+      }
+  }
+  return frame;
+}
+
+KnownTriangles drawn_triangles(std::size_t count) {
+  // Base angles that keep away from 60 degrees and whose corners differ from one another.
+  static constexpr double kAngles[] = {40, 68, 48, 74, 54, 35, 79};
+  KnownTriangles known;
+  for (std::size_t i = 0; i < count; ++i) {
+    KnownTriangle triangle;
+    triangle.id = std::to_string(i);
+    triangle.base_angle = kAngles[i % 7] * std::numbers::pi / 180;
+    // Equal areas: narrow ones are higher.
+    const double area = 1700.0 + 900.0 * double(i / 7);
+    triangle.height = std::sqrt(area * std::tan(triangle.base_angle));
+    known.triangles.push_back(triangle);
+  }
+  return known;
+}
+
+std::vector<TrianglePose> scattered(const KnownTriangles& known, const TableView& view,
+                                    base::Random& random) {
+  std::vector<TrianglePose> poses;
+  std::vector<double> reaches;
+  for (const KnownTriangle& triangle : known.triangles) {
+    const double half_base = triangle.height / std::tan(triangle.base_angle);
+    const double reach = std::max(2 * triangle.height / 3, std::hypot(triangle.height / 3, half_base)) + 6;
+    for (int attempt = 0; attempt < 5000; ++attempt) {
+      TrianglePose pose;
+      pose.centroid = {random.uniform(reach, view.table_width() - reach),
+                       random.uniform(reach, view.table_height() - reach)};
+      pose.angle = random.uniform(-std::numbers::pi, std::numbers::pi);
+      bool free = true;
+      for (std::size_t i = 0; i < poses.size(); ++i)
+        free &= (poses[i].centroid - pose.centroid).norm() > reaches[i] + reach;
+      if (!free && attempt < 4999) continue;
+      poses.push_back(pose);
+      reaches.push_back(reach);
+      break;
+    }
+  }
+  return poses;
+}
+
+}  // namespace icome::cutout
