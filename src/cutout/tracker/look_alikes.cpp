@@ -10,8 +10,8 @@
 namespace icome::cutout {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kOneDegree = kPi / 180.0;
+constexpr double kHalfTurn = std::numbers::pi;
+constexpr double kOneDegree = kHalfTurn / 180.0;
 constexpr double kAngleApart = 2.0 * kOneDegree;  // corners nearer to one another are taken for equal
 constexpr double kHeightApart = 0.04;             // so are heights that differ by this share
 constexpr double kLeastShare = 0.9;               // of a side that edges of others must lie along
@@ -23,7 +23,7 @@ double base_of(const KnownTriangle& triangle) {
   return 2.0 * triangle.height / std::tan(triangle.base_angle);
 }
 double leg_of(const KnownTriangle& triangle) { return triangle.height / std::sin(triangle.base_angle); }
-double apex_of(const KnownTriangle& triangle) { return kPi - 2.0 * triangle.base_angle; }
+double apex_of(const KnownTriangle& triangle) { return kHalfTurn - 2.0 * triangle.base_angle; }
 
 bool same_height(double one, double other) {
   return std::abs(one - other) <= kHeightApart * std::max(one, other);
@@ -115,7 +115,7 @@ bool joined_make(const KnownTriangle& one, const KnownTriangle& other, const Kno
   // The shared edge ends where corners i and k meet in a straight angle, and at corners i + e and k + f.
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      if (std::abs(a.angles[i] + b.angles[k] - kPi) > kAngleApart) continue;
+      if (std::abs(a.angles[i] + b.angles[k] - kHalfTurn) > kAngleApart) continue;
       for (std::size_t e = 1; e < 3; ++e)
         for (std::size_t f = 1; f < 3; ++f) {
           const std::size_t a_end = (i + e) % 3, a_free = (i + 3 - e) % 3;
@@ -145,7 +145,7 @@ std::vector<std::string> warnings_of(const KnownTriangles& known) {
   const auto& all = known.triangles;
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (std::abs(all[i].base_angle - kPi / 3.0) <= 2.0 * kOneDegree)
+    if (std::abs(all[i].base_angle - kHalfTurn / 3.0) <= 2.0 * kOneDegree)
       warnings.push_back(fmt::format(
           "'{}' has base angles of {:.4g} degrees: near 60 it looks the same when it is turned by a third",
           all[i].id, all[i].base_angle / kOneDegree));
