@@ -1,9 +1,8 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "cutout/tracker/frame_size.h"
 #include "cutout/tracker/pose/pose_search.h"
 #include "cutout/tracker/tracker.h"
 
@@ -200,11 +199,7 @@ void PoseTracker::search_missing(const FrameView& frame, double time) {
 }
 
 base::Result<std::vector<Sighting>> PoseTracker::see(const FrameView& frame, double time) {
-  const TableView& view = rectifier_.view();
-  if (frame.width != view.frame_width() || frame.height != view.frame_height())
-    return base::fail(fmt::format(
-        "a frame of {} x {} pixels came, but the camera was calibrated with {} x {}: calibrate anew",
-        frame.width, frame.height, view.frame_width(), view.frame_height()));
+  if (auto good = check_frame_size(frame, rectifier_.view()); !good) return tl::unexpected(good.error());
   if (!follows_ || (last_time_ && (time < *last_time_ || time > *last_time_ + 2))) forget();
   last_time_ = time;
   fit_.look_at(frame);
