@@ -4,15 +4,28 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/srgb.h"
+
 namespace icome::cutout {
 
 using base::Vector2;
 
+namespace {
+
+DrawnColour light_of(const DrawnColour& colour) {
+  return {base::linear_from_srgb(colour.blue / 255), base::linear_from_srgb(colour.green / 255),
+          base::linear_from_srgb(colour.red / 255)};
+}
+
+}  // namespace
+
 DrawnTable::DrawnTable(const TableView& view, DrawnColour table)
-    : view_(view), pixels_(std::size_t(view.frame_width()) * std::size_t(view.frame_height()), table) {}
+    : view_(view),
+      pixels_(std::size_t(view.frame_width()) * std::size_t(view.frame_height()), light_of(table)) {}
 
 template <typename Inside>
 void DrawnTable::draw(const std::vector<Vector2>& around, DrawnColour colour, Inside&& inside) {
+  const DrawnColour light = light_of(colour);
   Vector2 least = Vector2::Constant(1e9), most = Vector2::Constant(-1e9);
   for (const Vector2& mm : around) {
     const Vector2 pixel = view_.to_pixel(mm);
@@ -36,9 +49,9 @@ void DrawnTable::draw(const std::vector<Vector2>& around, DrawnColour colour, In
       }
       const double share = in / 64.0;
       DrawnColour& own = pixels_[std::size_t(y) * std::size_t(view_.frame_width()) + std::size_t(x)];
-      own.blue += share * (colour.blue - own.blue);
-      own.green += share * (colour.green - own.green);
-      own.red += share * (colour.red - own.red);
+      own.blue += share * (light.blue - own.blue);
+      own.green += share * (light.green - own.green);
+      own.red += share * (light.red - own.red);
     }
 }
 
@@ -88,7 +101,8 @@ Frame DrawnTable::frame(double noise, std::uint64_t seed) const {
         other[at(x, y)] = 0.25 * one[at(x - 1, y)] + 0.5 * one[at(x, y)] + 0.25 * one[at(x + 1, y)];
     for (int y = 0; y < frame.height; ++y)
       for (int x = 0; x < frame.width; ++x) {
-        const double value = 0.25 * other[at(x, y - 1)] + 0.5 * other[at(x, y)] + 0.25 * other[at(x, y + 1)];
+        const double light = 0.25 * other[at(x, y - 1)] + 0.5 * other[at(x, y)] + 0.25 * other[at(x, y + 1)];
+        const double value = 255 * base::srgb_from_linear(light);
         // The sum of three uniform numbers is near enough to a normal one.
         const double off = noise * 2 * (random.uniform() + random.uniform() + random.uniform() - 1.5);
         frame.bgr[3 * at(x, y) + channel] = std::uint8_t(std::clamp(value + off + 0.5, 0.0, 255.0));

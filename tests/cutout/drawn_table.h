@@ -7,7 +7,7 @@
 
 namespace icome::cutout {
 
-/// A colour, 0 to 255 each.
+/// A colour as sRGB codes it, 0 to 255 each.
 struct DrawnColour {
   double blue, green, red;
 };
@@ -33,7 +33,7 @@ class DrawnTable {
   void draw(const std::vector<base::Vector2>& around, DrawnColour colour, Inside&& inside);
 
   TableView view_;
-  std::vector<DrawnColour> pixels_;
+  std::vector<DrawnColour> pixels_;  // light, 0 to 1
 };
 
 /// Triangles of well different shapes.

@@ -4,17 +4,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/srgb.h"
+
 namespace icome::cutout {
 namespace {
 
 constexpr double kGlanceDistance = 3.5;  // pixels to both sides of the outline
 constexpr int kGlancePlaces = 9;         // of an edge
 constexpr int kPlateau = 4;              // pixels along a row or column from an edge to even colour
-constexpr double kLeastContrast = 50;    // of blue minus red across an edge
+constexpr float kLeastHue = 0.3F;        // by which both sides of an edge differ in hue, 1 for pure colours
 constexpr double kMostSamples = 48;      // of an edge
 constexpr double kSupportReach = 1.2;    // pixels from the outline to an edge that supports it
+constexpr double kWallLight = 0.5;       // of the light of the upper faces, that walls are taken to have
 constexpr int kFineWindow = 3;           // pixels
 constexpr double kEdgeNoise = 0.1;  // pixels, of one found edge, for its weight against what is known before
+
+using LinearLight = std::array<float, 256>;
+
+/// Light of a channel, which sRGB has coded.
+const LinearLight& linear_light() {
+  static const LinearLight table = [] {
+    LinearLight light;
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] = float(base::linear_from_srgb(double(i) / 255));
+    return light;
+  }();
+  return table;
+}
 
 }  // namespace
 
@@ -120,17 +135,25 @@ OutlineFit::Outcome OutlineFit::cross(const Vector2& predicted, const Vector2& i
     return within == ColourClass::Blue && beyond == ColourClass::Blue ? Outcome::BlueBeyond
                                                                       : Outcome::Unknown;
   }
-  // Halfway between the even colours of both sides lies the edge, however much it is blurred.
-  const double red = 0.5 * (signal(best - kPlateau) + signal(best - 1 - kPlateau));
-  const double blue = 0.5 * (signal(best + kPlateau - 1) + signal(best + kPlateau));
-  if (blue - red < kLeastContrast) return Outcome::Unknown;
-  const double half = (red + blue) / 2;
+  // A pixel's light is a share of the triangle's and a share of the table's; where the triangle's is a half,
+  // there is the edge, however much it is blurred and whatever shadow lies on the table beside it.
+  const LinearLight& light = linear_light();
+  const auto blue_of = [&](int i) { return light[at[i * in]]; };
+  const auto red_of = [&](int i) { return light[at[i * in + 2]]; };
+  const float table_blue = blue_of(best - kPlateau) + blue_of(best - 1 - kPlateau);
+  const float table_red = red_of(best - kPlateau) + red_of(best - 1 - kPlateau);
+  const float own_blue = blue_of(best + kPlateau - 1) + blue_of(best + kPlateau);
+  const float own_red = red_of(best + kPlateau - 1) + red_of(best + kPlateau);
+  const float determinant = own_blue * table_red - own_red * table_blue;
+  if (!(determinant > kLeastHue * own_blue * table_red)) return Outcome::Unknown;
+  const float scale = 2 / determinant;
+  const auto share = [&](int i) { return scale * (blue_of(i) * table_red - red_of(i) * table_blue); };
   int i = best;
-  while (i > best - 3 && signal(i - 1) > half) --i;
-  while (i < best + 3 && signal(i) <= half) ++i;
-  const double before = signal(i - 1), after = signal(i);
-  if (!(before <= half && after > half)) return Outcome::Unknown;
-  const double place = centre + side * (i - 1 + (half - before) / (after - before));
+  float before = share(i - 1), after = share(i);
+  while (i > best - 3 && before > 0.5F) after = before, before = share(--i - 1);
+  while (i < best + 3 && after <= 0.5F) before = after, after = share(++i);
+  if (!(before <= 0.5F && after > 0.5F)) return Outcome::Unknown;
+  const double place = centre + side * (i - 1 + (0.5 - before) / (after - before));
   found = by_row ? Vector2(place, line) : Vector2(line, place);
   return Outcome::Supported;
 }
@@ -139,11 +162,11 @@ void OutlineFit::measure(const TriangleShape& shape, const Placed& placed, int w
                          std::span<const Neighbour> neighbours) {
   samples_.clear();
   std::array<Vector2, 3> corners = corners_of(shape, placed);
-  // Walls that are seen below the edges move the outline of blue out.
+  // Walls that are seen below the edges move the outline of blue out, by as much as they are bright.
   for (std::size_t edge = 0; edge < 3; ++edge) {
     const Vector2 normal = turned(shape.normals[edge], std::cos(placed.turn), std::sin(placed.turn));
     const Vector2 middle = (corners[edge] + corners[(edge + 1) % 3]) / 2;
-    walls_[edge] = std::max(0.0, -normal.dot(rectifier_->view().wall_at(middle)));
+    walls_[edge] = kWallLight * std::max(0.0, -normal.dot(rectifier_->view().wall_at(middle)));
   }
   std::array<Vector2, 3> pixels;
   for (std::size_t i = 0; i < 3; ++i) {
