@@ -12,6 +12,7 @@ namespace {
 constexpr double kGlanceDistance = 3.5;  // pixels to both sides of the outline
 constexpr int kGlancePlaces = 9;         // of an edge
 constexpr int kPlateau = 4;              // pixels along a row or column from an edge to even colour
+constexpr int kNearPlateau = 2;          // where other things lie near
 constexpr float kLeastHue = 0.3F;        // by which both sides of an edge differ in hue, 1 for pure colours
 constexpr double kMostSamples = 48;      // of an edge
 constexpr double kSupportReach = 1.2;    // pixels from the outline to an edge that supports it
@@ -94,7 +95,7 @@ OutlineEvidence OutlineFit::glance(const TriangleShape& shape, const Placed& pla
 }
 
 OutlineFit::Outcome OutlineFit::cross(const Vector2& predicted, const Vector2& inward, const Vector2& tangent,
-                                      int window, Vector2& found) const {
+                                      int window, Vector2& found, bool& near) const {
   // Along a row where the edge is steep, else along a column; exactly through the centres of pixels.
   const bool by_row = std::abs(inward.x()) >= std::abs(inward.y());
   const int line = int(std::lround(by_row ? predicted.y() : predicted.x()));
@@ -112,19 +113,26 @@ OutlineFit::Outcome OutlineFit::cross(const Vector2& predicted, const Vector2& i
   const std::ptrdiff_t in = side * step;  // from a pixel to the next one inwards
   const auto signal = [&](int i) { return int(at[i * in]) - int(at[i * in + 2]); };
 
+  const auto is_red = [&](int i) { return colours_->of(at + i * in) == ColourClass::Red; };
+  const auto is_blue = [&](int i) { return colours_->of(at + i * in) == ColourClass::Blue; };
+
   const int threshold = colours_->threshold();
   const double ahead = side * (middle - centre);  // of the prediction from the centre, inwards
-  int best = kMostWindow + 1;
+  int best = kMostWindow + 1, plateau = kPlateau;
   double best_distance = 1e9;
   int last = signal(-window - 1);
   for (int i = -window; i <= window + 1; ++i) {
     const int own = signal(i);
     if (last <= threshold && own > threshold) {
       const double distance = std::abs(i - 0.5 - ahead);
-      if (distance < best_distance && colours_->of(at + (i - 1 - kPlateau) * in) == ColourClass::Red &&
-          colours_->of(at + (i + kPlateau) * in) == ColourClass::Blue) {
-        best_distance = distance;
-        best = i;
+      if (distance < best_distance) {
+        const bool near_too = is_red(i - 1 - kNearPlateau) && is_blue(i + kNearPlateau);
+        const bool far_too = is_red(i - 1 - kPlateau) && is_blue(i + kPlateau);
+        if (near_too) {
+          best_distance = distance;
+          best = i;
+          plateau = far_too ? kPlateau : kNearPlateau;
+        }
       }
     }
     last = own;
@@ -140,10 +148,10 @@ OutlineFit::Outcome OutlineFit::cross(const Vector2& predicted, const Vector2& i
   const LinearLight& light = linear_light();
   const auto blue_of = [&](int i) { return light[at[i * in]]; };
   const auto red_of = [&](int i) { return light[at[i * in + 2]]; };
-  const float table_blue = blue_of(best - kPlateau) + blue_of(best - 1 - kPlateau);
-  const float table_red = red_of(best - kPlateau) + red_of(best - 1 - kPlateau);
-  const float own_blue = blue_of(best + kPlateau - 1) + blue_of(best + kPlateau);
-  const float own_red = red_of(best + kPlateau - 1) + red_of(best + kPlateau);
+  const float table_blue = blue_of(best - plateau) + blue_of(best - 1 - plateau);
+  const float table_red = red_of(best - plateau) + red_of(best - 1 - plateau);
+  const float own_blue = blue_of(best + plateau - 1) + blue_of(best + plateau);
+  const float own_red = red_of(best + plateau - 1) + red_of(best + plateau);
   const float determinant = own_blue * table_red - own_red * table_blue;
   if (!(determinant > kLeastHue * own_blue * table_red)) return Outcome::Unknown;
   const float scale = 2 / determinant;
@@ -154,6 +162,7 @@ OutlineFit::Outcome OutlineFit::cross(const Vector2& predicted, const Vector2& i
   while (i < best + 3 && after <= 0.5F) before = after, after = share(++i);
   if (!(before <= 0.5F && after > 0.5F)) return Outcome::Unknown;
   const double place = centre + side * (i - 1 + (0.5 - before) / (after - before));
+  near = plateau != kPlateau;
   found = by_row ? Vector2(place, line) : Vector2(line, place);
   return Outcome::Supported;
 }
@@ -186,7 +195,9 @@ void OutlineFit::measure(const TriangleShape& shape, const Placed& placed, int w
       Sample sample;
       sample.edge = int(edge);
       sample.residual = 0;
-      sample.outcome = cross(at, seen.inward, way + 4 * (1 - 2 * t) * bend, window, sample.pixel);
+      sample.near = false;
+      sample.outcome =
+          cross(at, seen.inward, way + 4 * (1 - 2 * t) * bend, window, sample.pixel, sample.near);
       if (sample.outcome == Outcome::Supported)
         sample.place = rectifier_->to_table(sample.pixel.x(), sample.pixel.y());
       if (sample.outcome == Outcome::BlueBeyond) {
@@ -259,7 +270,7 @@ void OutlineFit::judge(const TriangleShape& shape, const Placed& placed, Outline
     if (sample.outcome != Outcome::Supported) continue;
     const double off = normals[edge].dot(sample.place - placed.centroid) - shape.offsets[edge] + walls_[edge];
     if (std::abs(off) > kSupportReach * pixel_) {
-      ++evidence.contradicted;
+      evidence.contradicted += !sample.near;
       continue;
     }
     ++evidence.supported;
@@ -267,7 +278,7 @@ void OutlineFit::judge(const TriangleShape& shape, const Placed& placed, Outline
     squares += off * off;
     supported_pixels_.push_back(sample.pixel);
   }
-  evidence.rms = evidence.supported ? std::sqrt(squares / evidence.supported) : 0.0;
+  evidence.rms = evidence.supported ? std::sqrt(squares / evidence.supported) / pixel_ : 0.0;
 }
 
 OutlineFitted OutlineFit::fit(const TriangleShape& shape, const Placed& from, double window,

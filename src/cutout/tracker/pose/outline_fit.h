@@ -16,7 +16,7 @@ namespace icome::cutout {
 struct OutlineEvidence {
   int places = 0, supported = 0, contradicted = 0, blue_beyond = 0;
   std::array<int, 3> places_of{}, supported_of{};  ///< the same by edges
-  double rms = 0;                                  ///< of supported places from the outline, mm
+  double rms = 0;                                  ///< of supported places from the outline, pixels
 
   double support() const { return places ? double(supported) / places : 0.0; }
   double contradiction() const { return places ? double(contradicted) / places : 0.0; }
@@ -75,6 +75,7 @@ class OutlineFit {
     double residual;
     int edge;
     Outcome outcome;
+    bool near;  // by colours close to it, as other things lie about: less can be relied on
   };
   struct EdgeInFrame {
     Vector2 start, middle, end;  // pixels
@@ -89,7 +90,7 @@ class OutlineFit {
   void measure(const TriangleShape& shape, const Placed& placed, int window, double spacing,
                std::span<const Neighbour> neighbours);
   Outcome cross(const Vector2& predicted, const Vector2& inward, const Vector2& tangent, int window,
-                Vector2& found) const;
+                Vector2& found, bool& near) const;
   bool solve(const TriangleShape& shape, Placed& placed, const Placed& from, double reach, int rounds,
              const PosePrior& prior, base::Matrix3& information);
   void judge(const TriangleShape& shape, const Placed& placed, OutlineEvidence& evidence);

@@ -17,13 +17,17 @@ constexpr double kMostAgainst = 0.1;
 constexpr double kMostBeyond = 0.1;          // blue beyond that no other triangle explains
 constexpr double kMostBeyondAtFirst = 0.35;  // before the others are known
 
+constexpr double kLooseness = 0.3;   // of a score, for each pixel that edges lie about the outline
+constexpr double kMostLoose = 0.55;  // pixels, root of the mean square
+
 double score_of(const OutlineEvidence& evidence) {
-  return evidence.support() - 1.5 * evidence.contradiction() - 0.5 * evidence.beyond();
+  return evidence.support() - 1.5 * evidence.contradiction() - 0.5 * evidence.beyond() -
+         kLooseness * evidence.rms;
 }
 
 bool may_be(const OutlineEvidence& evidence) {
   return evidence.support() >= kLeastSupport && evidence.contradiction() <= kMostAgainst &&
-         evidence.edges_with(3) >= 2;
+         evidence.edges_with(3) >= 2 && evidence.rms <= kMostLoose;
 }
 
 }  // namespace
