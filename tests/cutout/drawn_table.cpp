@@ -17,6 +17,13 @@ DrawnColour light_of(const DrawnColour& colour) {
           base::linear_from_srgb(colour.red / 255)};
 }
 
+/// May a corner of the shape lie in the pixel?
+bool near_corner(const std::vector<Vector2>& corners, int x, int y) {
+  for (const Vector2& pixel : corners)
+    if ((pixel - Vector2(x, y)).cwiseAbs().maxCoeff() < 3) return true;
+  return false;
+}
+
 }  // namespace
 
 DrawnTable::DrawnTable(const TableView& view, DrawnColour table)
@@ -26,9 +33,11 @@ DrawnTable::DrawnTable(const TableView& view, DrawnColour table)
 template <typename Inside>
 void DrawnTable::draw(const std::vector<Vector2>& around, DrawnColour colour, Inside&& inside) {
   const DrawnColour light = light_of(colour);
+  std::vector<Vector2> pixels;
   Vector2 least = Vector2::Constant(1e9), most = Vector2::Constant(-1e9);
   for (const Vector2& mm : around) {
     const Vector2 pixel = view_.to_pixel(mm);
+    pixels.push_back(pixel);
     least = least.cwiseMin(pixel);
     most = most.cwiseMax(pixel);
   }
@@ -36,14 +45,21 @@ void DrawnTable::draw(const std::vector<Vector2>& around, DrawnColour colour, In
             right = std::min(view_.frame_width() - 1, int(most.x()) + 3);
   const int top = std::max(0, int(least.y()) - 3),
             bottom = std::min(view_.frame_height() - 1, int(most.y()) + 3);
+  // Is the upper left corner of each pixel within?
+  const int wide = std::max(0, right - left + 2), high = std::max(0, bottom - top + 2);
+  std::vector<int> within(std::size_t(wide) * std::size_t(high));
+  const auto corner = [&](int x, int y) -> int& {
+    return within[std::size_t(y - top) * std::size_t(wide) + std::size_t(x - left)];
+  };
+  for (int y = top; y < top + high; ++y)
+    for (int x = left; x < left + wide; ++x) corner(x, y) = inside(view_.to_table({x - 0.5, y - 0.5}));
   for (int y = top; y <= bottom; ++y)
     for (int x = left; x <= right; ++x) {
       int in = 0;
-      int corners = 0;
-      for (int i = 0; i < 4; ++i) corners += inside(view_.to_table({x - 0.5 + (i & 1), y - 0.5 + (i >> 1)}));
+      const int corners = corner(x, y) + corner(x + 1, y) + corner(x, y + 1) + corner(x + 1, y + 1);
       if (corners == 4) {
         in = 64;
-      } else {
+      } else if (corners > 0 || near_corner(pixels, x, y)) {
         for (int j = 0; j < 64; ++j)
           in += inside(view_.to_table({x - 0.5 + (j % 8 + 0.5) / 8, y - 0.5 + (j / 8 + 0.5) / 8}));
       }
@@ -88,6 +104,8 @@ Frame DrawnTable::frame(double noise, std::uint64_t seed) const {
   frame.height = view_.frame_height();
   frame.bgr.resize(3 * pixels_.size());
   base::Random random(seed);
+  std::vector<double> codes(4096);
+  for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = 255 * base::srgb_from_linear(double(i) / 4095);
   std::vector<double> one(pixels_.size()), other(pixels_.size());
   const auto at = [&](int x, int y) {
     return std::size_t(std::clamp(y, 0, frame.height - 1)) * std::size_t(frame.width) +
@@ -102,9 +120,14 @@ Frame DrawnTable::frame(double noise, std::uint64_t seed) const {
     for (int y = 0; y < frame.height; ++y)
       for (int x = 0; x < frame.width; ++x) {
         const double light = 0.25 * other[at(x, y - 1)] + 0.5 * other[at(x, y)] + 0.25 * other[at(x, y + 1)];
-        const double value = 255 * base::srgb_from_linear(light);
-        // The sum of three uniform numbers is near enough to a normal one.
-        const double off = noise * 2 * (random.uniform() + random.uniform() + random.uniform() - 1.5);
+        const double place = 4095 * std::clamp(light, 0.0, 1.0);
+        const std::size_t below = std::min(std::size_t(place), std::size_t(4094));
+        const double value = codes[below] + (place - double(below)) * (codes[below + 1] - codes[below]);
+        // The sum of four even numbers is near enough to a normal one.
+        const std::uint64_t bits = random.bits();
+        double sum = 0;
+        for (int i = 0; i < 64; i += 16) sum += double(bits >> i & 0xffff) / 65536;
+        const double off = noise * std::numbers::sqrt3 * (sum - 2);
         frame.bgr[3 * at(x, y) + channel] = std::uint8_t(std::clamp(value + off + 0.5, 0.0, 255.0));
       }
   }

@@ -32,8 +32,8 @@ bool PoseHypotheses::place(const Corner& corner, const EdgeSegment& before, cons
       after.length() > shape.lengths[second] + 2 * beyond)
     return false;
   // The turn by both pieces, the longer one counting more.
-  const double turn_first = before.angle - std::atan2(shape.normals[first].y(), shape.normals[first].x());
-  const double turn_second = after.angle - std::atan2(shape.normals[second].y(), shape.normals[second].x());
+  const double turn_first = before.angle - shape.normal_angles[first];
+  const double turn_second = after.angle - shape.normal_angles[second];
   const double weight_first = before.points * before.length() * before.length();
   const double weight_second = after.points * after.length() * after.length();
   const double apart = within_half_turn(turn_second - turn_first);

@@ -15,6 +15,7 @@ TriangleShape::TriangleShape(const KnownTriangle& triangle) {
     lengths[i] = way.norm();
     along[i] = way / lengths[i];
     normals[i] = {-along[i].y(), along[i].x()};
+    normal_angles[i] = std::atan2(normals[i].y(), normals[i].x());
     offsets[i] = normals[i].dot(corners[i]);
     circumference += lengths[i];
     reach = std::max(reach, corners[i].norm());

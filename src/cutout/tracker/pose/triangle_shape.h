@@ -22,6 +22,7 @@ struct TriangleShape {
   std::array<Vector2, 3> corners;       ///< mm
   std::array<Vector2, 3> along;         ///< unit vectors from corner i to i + 1
   std::array<Vector2, 3> normals;       ///< unit vectors into the triangle
+  std::array<double, 3> normal_angles;  ///< rad, of the normals
   std::array<double, 3> offsets;        ///< mm; on edge i, normals[i] . p is offsets[i], below 0
   std::array<double, 3> lengths;        ///< mm, of the edges
   std::array<double, 3> corner_angles;  ///< rad
