@@ -45,12 +45,12 @@ LinearColour lit(const LinearColour& colour, double by) {
 double round_light(double depth) { return 0.6 + 0.4 * std::sqrt(std::clamp(depth, 0.0, 1.0)); }
 
 /// The blue sleeve, whose hem lies at `from`; folds run around it.
-HandPoint sleeve_at(const base::Vector2& mm, double from, double middle) {
+HandPoint sleeve_at(const base::Vector2& mm, double from, double middle, double radius) {
   HandPoint point;
-  const double aside = std::abs(mm.y() - middle) - kSleeveRadius;
+  const double aside = std::abs(mm.y() - middle) - radius;
   point.distance = std::max(aside, mm.x() - from);
   const double folds = 1.0 + 0.12 * std::sin(0.11 * mm.x() + 0.05 * mm.y());
-  point.colour = lit(linear_colour(38, 58, 140), folds * round_light(-aside / kSleeveRadius));
+  point.colour = lit(linear_colour(38, 58, 140), folds * round_light(-aside / radius));
   return point;
 }
 
@@ -59,7 +59,7 @@ class DrawnHand : public HandShape {
   explicit DrawnHand(int skin) : skin_(skin_tone(skin)) {}
 
   HandPoint at(const base::Vector2& mm) const override {
-    const HandPoint sleeve = sleeve_at(mm, kSleeveFrom, kSleeveMiddle);
+    const HandPoint sleeve = sleeve_at(mm, kSleeveFrom, kSleeveMiddle, kSleeveRadius);
     if (sleeve.distance < 0) return sleeve;
     HandPoint point;
     double depth = 0;
@@ -78,93 +78,135 @@ class DrawnHand : public HandShape {
   LinearColour skin_;
 };
 
-/// A photo, turned so that its arm points along x.
+/// A photo, turned so that its arm, from where the photo's border cuts it to the middle of all, points along
+/// x.
 class PhotoHand : public HandShape {
  public:
   explicit PhotoHand(charts::Image photo) : photo_(std::move(photo)) {
-    const double w = photo_.width - 1, h = photo_.height - 1;
-    const std::array<std::array<base::Vector2, 2>, 4> sides = {
-        {{{{0, 0}, {0, h}}}, {{{w, 0}, {w, h}}}, {{{0, 0}, {w, 0}}}, {{{0, h}, {w, h}}}}};
-    const std::array<base::Vector2, 4> inwards = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-    double most = -1;
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      base::Vector2 middle;
-      const double arm = arm_on(sides[i][0], sides[i][1], middle);
-      if (arm <= most) continue;
-      most = arm;
-      cut_ = middle;
-      along_ = inwards[i];
-    }
-    reach_ = farthest();
-    constexpr double kLength = 300.0;  // mm from where the arm is cut to the tips
-    scale_ = reach_ / kLength;
+    base::Vector2 middle = base::Vector2::Zero();
+    double opaque = 0, opaque_cut = 0;
+    for (int y = 0; y < photo_.height; ++y)
+      for (int x = 0; x < photo_.width; ++x) {
+        if (photo_.pixel(x, y)[3] < 128) continue;
+        middle += base::Vector2(x, y);
+        ++opaque;
+        if (x > 0 && y > 0 && x + 1 < photo_.width && y + 1 < photo_.height) continue;
+        cut_ += base::Vector2(x, y);
+        ++opaque_cut;
+      }
+    if (opaque > 0) middle /= opaque;
+    cut_ = opaque_cut > 0 ? base::Vector2(cut_ / opaque_cut) : base::Vector2(middle.x(), photo_.height);
+    if ((middle - cut_).norm() > 1) along_ = (middle - cut_).normalized();
+    find_tip();
+    constexpr double kLength = 240.0;  // mm from where the arm is cut to the tips
+    scale_ = std::max(1.0, along_.dot(tip_ - cut_)) / kLength;
+    sleeve_from_ = along_.dot(cut_ - tip_) / scale_ + 60.0;
+    fit_sleeve();
+    measure_distances();
   }
 
   HandPoint at(const base::Vector2& mm) const override {
-    constexpr double kSleeveOver = 45.0;  // mm of the arm that it covers
-    const HandPoint sleeve = sleeve_at(mm, kSleeveOver - reach_ / scale_, 0.0);
+    const HandPoint sleeve = sleeve_at(mm, sleeve_from_, sleeve_middle_, sleeve_radius_);
     if (sleeve.distance < 0) return sleeve;
     const base::Vector2 across(-along_.y(), along_.x());
-    const base::Vector2 place = cut_ + along_ * (reach_ + mm.x() * scale_) + across * (mm.y() * scale_);
-    HandPoint point = sampled(place);
+    HandPoint point;
+    if (mm.x() > sleeve_from_)
+      point = sampled(tip_ + along_ * (mm.x() * scale_) + across * (mm.y() * scale_));
     return sleeve.distance < point.distance ? sleeve : point;
   }
 
  private:
-  /// Opaque length of a side, and its middle.
-  double arm_on(const base::Vector2& from, const base::Vector2& to, base::Vector2& middle) const {
-    constexpr int kSteps = 400;
-    double arm = 0;
-    base::Vector2 sum = base::Vector2::Zero();
-    for (int i = 0; i <= kSteps; ++i) {
-      const base::Vector2 place = from + (to - from) * (double(i) / kSteps);
-      const double opacity = photo_.pixel(int(place.x()), int(place.y()))[3] / 255.0;
-      arm += opacity;
-      sum += opacity * place;
+  /// The sleeve is a little wider than the arm at its hem.
+  void fit_sleeve() {
+    constexpr double kWidest = 200.0, kSlack = 6.0;  // mm
+    const base::Vector2 across(-along_.y(), along_.x());
+    double least = kWidest, most = -kWidest;
+    for (double y = -kWidest; y <= kWidest; y += 1.0) {
+      const base::Vector2 place = tip_ + along_ * (sleeve_from_ * scale_) + across * (y * scale_);
+      const int column = int(place.x()), row = int(place.y());
+      if (column < 0 || row < 0 || column >= photo_.width || row >= photo_.height) continue;
+      if (photo_.pixel(column, row)[3] < 128) continue;
+      least = std::min(least, y);
+      most = std::max(most, y);
     }
-    middle = arm > 0 ? base::Vector2(sum / arm) : base::Vector2(0.5 * (from + to));
-    return arm * (to - from).norm();
+    if (most < least) return;
+    sleeve_middle_ = 0.5 * (least + most);
+    sleeve_radius_ = 0.5 * (most - least) + kSlack;
   }
 
-  double farthest() const {
-    double far = 1;
-    for (int y = 0; y < photo_.height; y += 2)
-      for (int x = 0; x < photo_.width; x += 2)
-        if (photo_.pixel(x, y)[3] > 127) far = std::max(far, along_.dot(base::Vector2(x, y) - cut_));
-    return far;
+  /// Distances from the outline by two sweeps (Rosenfeld and Pfaltz 1966), pixels, below zero inside.
+  void measure_distances() {
+    const int w = photo_.width, h = photo_.height;
+    const auto swept = [&](bool inside) {
+      std::vector<float> far(std::size_t(w) * std::size_t(h));
+      const auto at = [&](int x, int y) -> float& {
+        return far[std::size_t(y) * std::size_t(w) + std::size_t(x)];
+      };
+      const auto relax = [&](int x, int y, int i, int k, float step) {
+        if (x + i >= 0 && x + i < w && y + k >= 0 && y + k < h)
+          at(x, y) = std::min(at(x, y), at(x + i, y + k) + step);
+      };
+      for (int y = 0; y < h; ++y)
+        for (int x = 0; x < w; ++x) at(x, y) = (photo_.pixel(x, y)[3] >= 128) == inside ? 1e6F : 0.0F;
+      for (const int way : {-1, 1})
+        for (int row = 0; row < h; ++row)
+          for (int column = 0; column < w; ++column) {
+            const int x = way < 0 ? column : w - 1 - column, y = way < 0 ? row : h - 1 - row;
+            relax(x, y, way, 0, 1.0F);
+            relax(x, y, 0, way, 1.0F);
+            relax(x, y, way, way, 1.4142F);
+            relax(x, y, -way, way, 1.4142F);
+          }
+      return far;
+    };
+    distances_ = swept(false);
+    const std::vector<float> within = swept(true);
+    for (std::size_t i = 0; i < distances_.size(); ++i)
+      distances_[i] = distances_[i] > 0 ? distances_[i] - 0.5F : 0.5F - within[i];
   }
 
-  /// Opacity stands for the distance: half of it lies on the outline, a pixel of the photo within it is
-  /// clear.
+  void find_tip() {
+    double far = -1e9;
+    for (int y = 0; y < photo_.height; ++y)
+      for (int x = 0; x < photo_.width; ++x) {
+        const base::Vector2 place(x, y);
+        if (photo_.pixel(x, y)[3] < 128 || along_.dot(place) <= far) continue;
+        far = along_.dot(place);
+        tip_ = place;
+      }
+  }
+
   HandPoint sampled(const base::Vector2& place) const {
     const int x = int(std::floor(place.x())), y = int(std::floor(place.y()));
     if (x < 0 || y < 0 || x + 1 >= photo_.width || y + 1 >= photo_.height) return {};
     const double u = place.x() - x, v = place.y() - y;
-    std::array<double, 4> sum{};
-    double colour_weight = 0;
-    for (const auto& [column, row, weight] : {std::tuple(x, y, (1 - u) * (1 - v)),
-                                              {x + 1, y, u * (1 - v)},
-                                              {x, y + 1, (1 - u) * v},
-                                              {x + 1, y + 1, u * v}}) {
+    HandPoint point;
+    point.distance = 0;
+    std::array<double, 3> sum{};
+    double opaque = 0;
+    const std::array<double, 4> weights = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+    for (int i = 0; i < 4; ++i) {
+      const int column = x + i % 2, row = y + i / 2;
+      const double weight = weights[std::size_t(i)];
       const std::uint8_t* const pixel = photo_.pixel(column, row);
       const double opacity = weight * pixel[3] / 255.0;
-      for (std::size_t i = 0; i < 3; ++i) sum[i] += opacity * base::linear_from_srgb(pixel[i] / 255.0);
-      colour_weight += opacity;
-      sum[3] += opacity;
+      opaque += opacity;
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        sum[channel] += opacity * base::linear_from_srgb(pixel[channel] / 255.0);
+      point.distance +=
+          weight * distances_[std::size_t(row) * std::size_t(photo_.width) + std::size_t(column)] / scale_;
     }
-    HandPoint point;
-    if (colour_weight <= 0) return point;
-    point.colour = {float(sum[2] / colour_weight), float(sum[1] / colour_weight),
-                    float(sum[0] / colour_weight)};
-    point.distance = (0.5 - sum[3]) / scale_;
+    if (opaque > 0) point.colour = {float(sum[2] / opaque), float(sum[1] / opaque), float(sum[0] / opaque)};
     return point;
   }
 
   charts::Image photo_;
-  base::Vector2 cut_ = base::Vector2::Zero();  // pixels
-  base::Vector2 along_ = base::Vector2::UnitX();
-  double reach_ = 1;  // pixels from the cut to the tips
-  double scale_ = 1;  // pixels in a mm
+  base::Vector2 cut_ = base::Vector2::Zero();  // where the arm ends, pixels
+  base::Vector2 tip_ = base::Vector2::Zero();  // what reaches farthest, pixels
+  base::Vector2 along_ = -base::Vector2::UnitY();
+  double scale_ = 1;                                                            // pixels in a mm
+  double sleeve_middle_ = 0, sleeve_from_ = 0, sleeve_radius_ = kSleeveRadius;  // mm
+  std::vector<float> distances_;                                                // from the outline, pixels
 };
 
 }  // namespace

@@ -17,7 +17,6 @@
 namespace icome::cutout {
 namespace {
 
-constexpr double kShadowDarkness = 0.4;
 constexpr double kPenumbra = 1.2;       // mm, of a triangle's shadow
 constexpr double kHandHeight = 15.0;    // mm above the faces
 constexpr double kHandPenumbra = 14.0;  // mm
@@ -267,8 +266,7 @@ struct SyntheticTable::Parts {
     const Outline2 outline(hull_of(dark), Eigen::Matrix2d::Identity());
     for_pixels(box_around(dark, options.thickness), [&](int x, int y) {
       const double distance = outline.mm_from(seen_at(x, y, options.thickness));
-      if (distance < kPenumbra)
-        darken(picture.at(x, y), kShadowDarkness * soft_step(distance, 2 * kPenumbra));
+      if (distance < kPenumbra) darken(picture.at(x, y), options.shadow * soft_step(distance, 2 * kPenumbra));
     });
   }
 
@@ -290,10 +288,13 @@ struct SyntheticTable::Parts {
       if (whole <= 0) return;
       LinearColour& pixel = picture.at(x, y);
       const double light = light_at(x, y, mm);
-      cover(pixel, wall, whole, light);
       const double grain = 0.03 * value_noise((mm - pose.centroid) / 9.0, options.seed ^ 4U);
       const double rim = 0.12 * soft_step(-top.mm_from(mm) - kRimWidth, kRimWidth);
-      cover(pixel, blue, std::clamp(0.5 - top.pixels_from(mm), 0.0, 1.0), light * (1.0 + grain + rim));
+      // One share of the pixel each for table, wall and face: painted one over the other they would add up.
+      const double face_share = std::clamp(0.5 - top.pixels_from(mm), 0.0, whole);
+      for (std::size_t i = 0; i < 3; ++i)
+        pixel[i] = float((1.0 - whole) * pixel[i] + light * ((whole - face_share) * wall[i] +
+                                                             face_share * (1.0 + grain + rim) * blue[i]));
     });
   }
 
@@ -349,12 +350,12 @@ struct SyntheticTable::Parts {
       const base::Vector2 mm = seen_at(x, y, shadow ? 0.0 : -kHandHeight);
       const base::Vector2 place =
           in_hand(hand, shadow ? base::Vector2(mm - kTowardsShadow * kHandHeight) : mm);
-      constexpr double kFarthestAside = 160.0, kFarthestAhead = 120.0;
+      constexpr double kFarthestAside = 200.0, kFarthestAhead = 120.0;
       if (place.x() > kFarthestAhead || std::abs(place.y()) > kFarthestAside) return;
       const HandPoint point = shape.at(place);
       if (shadow) {
         if (point.distance < kHandPenumbra)
-          darken(picture.at(x, y), kShadowDarkness * soft_step(point.distance, 2 * kHandPenumbra));
+          darken(picture.at(x, y), options.shadow * soft_step(point.distance, 2 * kHandPenumbra));
         return;
       }
       const double share = std::clamp(0.5 - point.distance * pixels_of_mm, 0.0, 1.0);
@@ -466,8 +467,8 @@ base::Result<void> check(const SyntheticOptions& options) {
   if (outside(options.tilt, -0.7, 0.7)) return base::fail("the camera is tilted by 0.7 rad at most");
   if (outside(options.blur, 0, 20) || outside(options.noise, 0, 100) ||
       outside(options.jpeg_quality, 0, 100) || outside(options.light, 0, 100) ||
-      outside(options.exposure, 0, 1))
-    return base::fail("blur, noise, light, exposure or quality of the frames is out of range");
+      outside(options.exposure, 0, 1) || outside(options.shadow, 0, 1))
+    return base::fail("blur, noise, light, shadow, exposure or quality of the frames is out of range");
   base::Random random(options.seed);
   const bool all = all_on_table(options, scattered(options, random));
   if (!all)

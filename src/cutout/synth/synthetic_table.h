@@ -26,6 +26,7 @@ struct SyntheticOptions {
   bool hands = false;            ///< hands, sleeves and a watch reach in and hold triangles
   double occlude = 0;            ///< share of each edge that is covered, 0 to 1
   double thickness = 3;          ///< of the triangles, mm
+  double shadow = 0.4;           ///< darkness of shadows, 0 to 1
   double tilt = 0.15;            ///< of the camera from straight down, rad
   double light = 1;              ///< exposure: 0.1 is too dark, 4 overexposed
   double exposure = 0;           ///< s that the shutter is open; 0: an instant
