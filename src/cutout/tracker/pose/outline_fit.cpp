@@ -55,7 +55,7 @@ OutlineFit::EdgeInFrame OutlineFit::edge_in_frame(const TriangleShape& shape,
   if (seen.inward.dot(corner_pixels[(edge + 2) % 3] - seen.start) < 0) seen.inward = -seen.inward;
   // The blue within must be wide enough where an edge is looked for.
   const auto margin = [&](double angle) {
-    return (3 + (angle < 1.5 ? clearance / std::tan(angle) : 0.0)) / seen.length;
+    return (2 + (angle < 1.5 ? clearance / std::tan(angle) : 0.0)) / seen.length;
   };
   seen.from = margin(shape.corner_angles[edge]);
   seen.to = 1 - margin(shape.corner_angles[next]);
@@ -183,7 +183,7 @@ void OutlineFit::measure(const TriangleShape& shape, const Placed& placed, int w
     if (!pixels[i].allFinite()) return;
   }
   for (std::size_t edge = 0; edge < 3; ++edge) {
-    const EdgeInFrame seen = edge_in_frame(shape, corners, pixels, edge, kPlateau + 1);
+    const EdgeInFrame seen = edge_in_frame(shape, corners, pixels, edge, kNearPlateau + 1);
     if (!(seen.length > 6 && seen.to > seen.from)) continue;
     const double span = (seen.to - seen.from) * seen.length;
     const int count = std::max(1, int(std::min(span / spacing, kMostSamples)));
