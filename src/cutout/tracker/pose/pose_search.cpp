@@ -17,17 +17,20 @@ constexpr double kMostAgainst = 0.1;
 constexpr double kMostBeyond = 0.1;          // blue beyond that no other triangle explains
 constexpr double kMostBeyondAtFirst = 0.35;  // before the others are known
 
-constexpr double kLooseness = 0.3;   // of a score, for each pixel that edges lie about the outline
-constexpr double kMostLoose = 0.55;  // pixels, root of the mean square
+constexpr double kMostLoose = 0.45;     // pixels that edges lie about the outline, root of the mean square
+constexpr double kNearlyAsGood = 0.75;  // of a score, from which another explanation casts doubt
+constexpr double kSharedPlaces = 0.5;   // share of places by which two candidates explain the same edges
+constexpr int kSeenPlaces = 3;          // of an edge that count as a sight of it
 
-double score_of(const OutlineEvidence& evidence) {
-  return evidence.support() - 1.5 * evidence.contradiction() - 0.5 * evidence.beyond() -
-         kLooseness * evidence.rms;
+/// Pixels of outline that speak for a candidate, less those against it.
+double score_of(const OutlineEvidence& evidence, double circumference) {
+  return circumference *
+         (evidence.support() * (1 - evidence.rms) - 1.5 * evidence.contradiction() - 0.7 * evidence.beyond());
 }
 
 bool may_be(const OutlineEvidence& evidence) {
   return evidence.support() >= kLeastSupport && evidence.contradiction() <= kMostAgainst &&
-         evidence.edges_with(3) >= 2 && evidence.rms <= kMostLoose;
+         evidence.edges_with(kSeenPlaces) >= 2 && evidence.rms <= kMostLoose;
 }
 
 }  // namespace
@@ -48,7 +51,7 @@ void PoseSearch::choose_hypotheses(const OutlineFit& fit) {
     if (glance.support() < kLeastGlance || glance.contradiction() > kMostGlanceAgainst ||
         glance.edges_with(1) < 2)
       continue;
-    ranked_.emplace_back(score_of(glance), i);
+    ranked_.emplace_back(glance.support() - 1.5 * glance.contradiction() - 0.5 * glance.beyond(), i);
   }
   std::sort(ranked_.begin(), ranked_.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first > b.first : a.second < b.second;
@@ -84,35 +87,75 @@ void PoseSearch::fit_hypotheses(OutlineFit& fit, std::span<const Neighbour> neig
     if (candidate_count_ == candidates_.size()) candidates_.emplace_back();
     Candidate& candidate = candidates_[candidate_count_++];
     candidate.pose = {hypothesis.triangle, fitted};
-    candidate.score = score_of(fitted.evidence);
+    candidate.score = score_of(fitted.evidence, shapes_[hypothesis.triangle].circumference /
+                                                    rectifier_->mm_per_pixel(fitted.placed.centroid));
+    candidate.whole = fitted.evidence.edges_with(kSeenPlaces) == 3;
     candidate.pixels.assign(fit.supported_pixels().begin(), fit.supported_pixels().end());
   }
 }
 
-void PoseSearch::accept(OutlineFit& fit, std::span<const Neighbour> neighbours, Claims& claims,
+bool PoseSearch::take(const Candidate& candidate, Claims& claims) {
+  if (taken_[candidate.pose.triangle]) return false;
+  std::size_t own = 0;
+  for (const Vector2& pixel : candidate.pixels) own += !claims.taken(pixel.x(), pixel.y());
+  const double share = double(own) / std::max(1, candidate.pose.fitted.evidence.places);
+  if (share < kLeastSupport || double(own) < 0.6 * double(candidate.pixels.size())) return false;
+  taken_[candidate.pose.triangle] = true;
+  for (const Vector2& pixel : candidate.pixels) claims.take(pixel);
+  return true;
+}
+
+bool PoseSearch::is_doubtful(const Candidate& candidate, const SearchWish& wish) const {
+  const auto was_near = [&](const PoseFound& pose) {
+    const std::optional<Placed>& last = wish.last[pose.triangle];
+    return last &&
+           (last->centroid - pose.fitted.placed.centroid).norm() < 0.5 * shapes_[pose.triangle].reach &&
+           std::abs(within_half_turn(last->turn - pose.fitted.placed.turn)) < 0.5;
+  };
+  const bool expected = was_near(candidate.pose);
+  const Placed& placed = candidate.pose.fitted.placed;
+  const double pixel = rectifier_->mm_per_pixel(placed.centroid);
+  for (std::size_t i = 0; i < candidate_count_; ++i) {
+    const Candidate& other = candidates_[i];
+    if (&other == &candidate || taken_[other.pose.triangle] || other.score < kNearlyAsGood * candidate.score)
+      continue;
+    const Placed& there = other.pose.fitted.placed;
+    const TriangleShape& shape = shapes_[other.pose.triangle];
+    if ((there.centroid - placed.centroid).norm() > shape.reach + shapes_[candidate.pose.triangle].reach)
+      continue;
+    if (other.pose.triangle == candidate.pose.triangle &&
+        (there.centroid - placed.centroid).norm() < 2 * pixel &&
+        std::abs(within_half_turn(there.turn - placed.turn)) < 0.04)
+      continue;
+    if (expected && !was_near(other.pose)) continue;
+    std::size_t shared = 0;
+    for (const Vector2& at : candidate.pixels)
+      shared += std::abs(depth_within(shape, there, rectifier_->to_table(at.x(), at.y()))) < 2 * pixel;
+    if (double(shared) >= kSharedPlaces * double(candidate.pixels.size())) return true;
+  }
+  return false;
+}
+
+void PoseSearch::accept(OutlineFit& fit, const SearchWish& wish, Claims& claims,
                         std::vector<PoseFound>& found) {
   std::vector<const Candidate*> best;
   for (std::size_t i = 0; i < candidate_count_; ++i) best.push_back(&candidates_[i]);
   std::stable_sort(best.begin(), best.end(),
                    [](const Candidate* a, const Candidate* b) { return a->score > b->score; });
-  std::vector<bool> taken(shapes_.size(), false);
+  taken_.assign(shapes_.size(), false);
   std::vector<const Candidate*> accepted;
-  for (const Candidate* candidate : best) {
-    if (taken[candidate->pose.triangle]) continue;
-    std::size_t own = 0;
-    for (const Vector2& pixel : candidate->pixels) own += !claims.taken(pixel.x(), pixel.y());
-    const double share = double(own) / std::max(1, candidate->pose.fitted.evidence.places);
-    if (share < kLeastSupport || double(own) < 0.6 * double(candidate->pixels.size())) continue;
-    taken[candidate->pose.triangle] = true;
-    for (const Vector2& pixel : candidate->pixels) claims.take(pixel);
-    accepted.push_back(candidate);
-  }
+  for (const Candidate* candidate : best)
+    if (candidate->whole && take(*candidate, claims)) accepted.push_back(candidate);
+  // Two edges alone may belong to several triangles, or to one in several ways: then nothing is known.
+  for (const Candidate* candidate : best)
+    if (!candidate->whole && !is_doubtful(*candidate, wish) && take(*candidate, claims))
+      accepted.push_back(candidate);
   // Blue beyond an edge must belong to another triangle: now all are known.
   std::vector<Neighbour> others;
   for (const Candidate* candidate : accepted) {
     PoseFound pose = candidate->pose;
     if (pose.fitted.evidence.blue_beyond > 0) {
-      others.assign(neighbours.begin(), neighbours.end());
+      others = wish.neighbours;
       for (const Candidate* other : accepted)
         if (other != candidate) others.push_back({&shapes_[other->pose.triangle], other->pose.fitted.placed});
       pose.fitted = fit.fit(shapes_[pose.triangle], pose.fitted.placed, 0, PosePrior{}, others);
@@ -122,8 +165,7 @@ void PoseSearch::accept(OutlineFit& fit, std::span<const Neighbour> neighbours, 
 }
 
 void PoseSearch::find(const FrameView& frame, const ColourClasses& colours, OutlineFit& fit,
-                      const std::vector<bool>& wanted, std::span<const Neighbour> neighbours, Claims& claims,
-                      std::vector<PoseFound>& found) {
+                      const SearchWish& wish, Claims& claims, std::vector<PoseFound>& found) {
   found.clear();
   const Vector2 middle = rectifier_->to_table(frame.width / 2.0, frame.height / 2.0);
   const double step =
@@ -131,10 +173,10 @@ void PoseSearch::find(const FrameView& frame, const ColourClasses& colours, Outl
   const double pixel = step * rectifier_->mm_per_pixel(middle);
   crossings_.find(frame, colours, *rectifier_, claims, points_);
   lines_.find(points_, pixel, segments_);
-  makes_.find(segments_, pixel, wanted, hypotheses_);
+  makes_.find(segments_, pixel, wish.wanted, hypotheses_);
   choose_hypotheses(fit);
-  fit_hypotheses(fit, neighbours);
-  accept(fit, neighbours, claims, found);
+  fit_hypotheses(fit, wish.neighbours);
+  accept(fit, wish, claims, found);
 }
 
 }  // namespace icome::cutout

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,14 @@ struct PoseFound {
   OutlineFitted fitted;
 };
 
+/// The triangles that a search is for.
+struct SearchWish {
+  std::vector<bool> wanted;  ///< for each known triangle
+  std::vector<std::optional<Placed>>
+      last;                           ///< where it was seen a moment ago, which settles what is doubtful
+  std::vector<Neighbour> neighbours;  ///< triangles that are known to lie in the frame
+};
+
 /// Searches a whole frame for triangles, from nothing.
 class PoseSearch {
  public:
@@ -25,20 +34,21 @@ class PoseSearch {
 
   /// The triangles that are wanted, by edges that are not claimed yet, each at most once; their edges are
   /// claimed then. `neighbours` are triangles known to lie there. `fit` looks at the same frame.
-  void find(const FrameView& frame, const ColourClasses& colours, OutlineFit& fit,
-            const std::vector<bool>& wanted, std::span<const Neighbour> neighbours, Claims& claims,
-            std::vector<PoseFound>& found);
+  void find(const FrameView& frame, const ColourClasses& colours, OutlineFit& fit, const SearchWish& wish,
+            Claims& claims, std::vector<PoseFound>& found);
 
  private:
   struct Candidate {
     PoseFound pose;
     double score;
     std::vector<Vector2> pixels;  // of supported places
+    bool whole;                   // each of its edges is supported somewhere
   };
   void choose_hypotheses(const OutlineFit& fit);
   void fit_hypotheses(OutlineFit& fit, std::span<const Neighbour> neighbours);
-  void accept(OutlineFit& fit, std::span<const Neighbour> neighbours, Claims& claims,
-              std::vector<PoseFound>& found);
+  void accept(OutlineFit& fit, const SearchWish& wish, Claims& claims, std::vector<PoseFound>& found);
+  bool take(const Candidate& candidate, Claims& claims);
+  bool is_doubtful(const Candidate& candidate, const SearchWish& wish) const;
 
   std::span<const TriangleShape> shapes_;
   const Rectifier* rectifier_;
@@ -51,6 +61,7 @@ class PoseSearch {
   std::vector<std::pair<double, std::size_t>> ranked_;  // hypotheses by what a glance says
   std::vector<Candidate> candidates_;
   std::size_t candidate_count_ = 0;  // those in use; the others keep their memory
+  std::vector<bool> taken_;          // triangles that were accepted
 };
 
 /// Is what the frame says enough to believe in a triangle that was not seen before?

@@ -9,10 +9,12 @@
 namespace icome::cutout {
 namespace {
 
-constexpr double kLongestGlide = 0.12;    // s that a hidden triangle is still reported, where it would be
+constexpr double kLongestMemory = 3;      // s that a place is remembered, to settle what is doubtful
+constexpr double kLongestGlide = 0.05;    // s that a hidden triangle is still reported, where it would be
 constexpr double kTrackedSupport = 0.12;  // share of the outline by which a triangle is followed
 constexpr double kTrackedAgainst = 0.25;
-constexpr double kSureSupport = 0.6;  // share by which a new triangle is believed at once
+constexpr double kSureSupport = 0.3;  // share by which a new triangle of three edges is believed at once
+constexpr double kSureRms = 0.35;     // pixels
 constexpr double kLeastWindow = 6;    // pixels about a prediction
 constexpr double kWidestWindow = 20;
 constexpr double kLongestStep = 0.5;  // s between frames over which motion is foreseen
@@ -39,11 +41,13 @@ class PoseTracker : public Tracker {
         fit_(rectifier_, colours_),
         claims_(rectifier_.view().frame_width(), rectifier_.view().frame_height()),
         tracks_(shapes_.size()),
+        lost_(shapes_.size()),
         follows_(tracks) {}
 
   base::Result<std::vector<Sighting>> see(const FrameView& frame, double time) override;
   void forget() override {
     std::fill(tracks_.begin(), tracks_.end(), TriangleTrack{});
+    std::fill(lost_.begin(), lost_.end(), LastSeen{});
     last_time_.reset();
   }
 
@@ -65,6 +69,12 @@ class PoseTracker : public Tracker {
   std::vector<TriangleTrack> tracks_;
   std::vector<Placed> foreseen_;  // of all tracks, in the frame at hand
   std::vector<PoseFound> found_;
+  SearchWish wish_;
+  struct LastSeen {
+    double time = -1e9;  // s
+    Placed placed;
+  };
+  std::vector<LastSeen> lost_;  // of each triangle, when it was last seen for sure
   std::optional<double> last_time_;
   bool follows_;
   int idle_searches_ = 0;  // full searches without a find, one after the other
@@ -171,21 +181,23 @@ void PoseTracker::part_doubles() {
 }
 
 void PoseTracker::search_missing(const FrameView& frame, double time) {
-  std::vector<bool> wanted(tracks_.size());
-  std::vector<Neighbour> neighbours;
+  wish_.wanted.assign(tracks_.size(), false);
+  wish_.last.assign(tracks_.size(), std::nullopt);
+  wish_.neighbours.clear();
   bool any = false, lost_now = false;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const bool seen = tracks_[i].followed && tracks_[i].seen == time;
-    wanted[i] = !seen;
+    wish_.wanted[i] = !seen;
+    if (lost_[i].time + kLongestMemory >= time) wish_.last[i] = lost_[i].placed;
     any |= !seen;
     lost_now |= tracks_[i].followed && !seen;
-    if (seen) neighbours.push_back({&shapes_[i], tracks_[i].placed});
+    if (seen) wish_.neighbours.push_back({&shapes_[i], tracks_[i].placed});
   }
   if (!any) return;
   // Triangles that have long been away are looked for now and then.
   if (follows_ && !lost_now && idle_searches_ >= kPatience && ++skipped_ < kPatience) return;
   skipped_ = 0;
-  search_.find(frame, colours_, fit_, wanted, neighbours, claims_, found_);
+  search_.find(frame, colours_, fit_, wish_, claims_, found_);
   idle_searches_ = found_.empty() ? idle_searches_ + 1 : 0;
   for (const PoseFound& pose : found_) {
     TriangleTrack& track = tracks_[pose.triangle];
@@ -194,7 +206,10 @@ void PoseTracker::search_missing(const FrameView& frame, double time) {
         (track.placed.centroid - pose.fitted.placed.centroid).norm() < 2 * shapes_[pose.triangle].reach;
     track = {};
     update(track, pose.fitted, time);
-    track.sure = !follows_ || was_sure || pose.fitted.evidence.support() >= kSureSupport;
+    const OutlineEvidence& evidence = pose.fitted.evidence;
+    track.sure =
+        !follows_ || was_sure ||
+        (evidence.support() >= kSureSupport && evidence.edges_with(3) == 3 && evidence.rms < kSureRms);
   }
 }
 
@@ -212,7 +227,9 @@ base::Result<std::vector<Sighting>> PoseTracker::see(const FrameView& frame, dou
     TriangleTrack& track = tracks_[i];
     if (!track.followed) continue;
     if (track.seen == time) {
-      if (track.sure) seen.push_back({i, pose_of(track.placed), track.confidence});
+      if (!track.sure) continue;
+      lost_[i] = {time, track.placed};
+      seen.push_back({i, pose_of(track.placed), track.confidence});
       continue;
     }
     if (!track.sure || time - track.seen > kLongestGlide) {
