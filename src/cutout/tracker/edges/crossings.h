@@ -38,8 +38,9 @@ class Crossings {
            const Claims& claims, const Grid& grid, int x, int y, bool along_row,
            std::vector<EdgePoint>& points);
 
-  std::vector<std::int8_t> signal_;  // half of blue minus red, above the threshold
-  std::vector<std::uint8_t> sides_;  // 1 where that is above 0
+  std::vector<std::int8_t> signal_;     // half of blue minus red, above the threshold
+  std::vector<std::int8_t> whole_row_;  // the signal of a row of the frame
+  std::vector<std::uint8_t> sides_;     // 1 where that is above 0
 };
 
 }  // namespace icome::cutout

@@ -11,6 +11,11 @@ Rectifier::Rectifier(TableView view) : view_(std::move(view)) {
   m00_ = m(0, 0), m01_ = m(0, 1), m02_ = m(0, 2);
   m10_ = m(1, 0), m11_ = m(1, 1), m12_ = m(1, 2);
   m20_ = m(2, 0), m21_ = m(2, 1), m22_ = m(2, 2);
+  const base::Vector2 middle(view_.frame_width() / 2.0, view_.frame_height() / 2.0);
+  const base::Vector2 at = view_.to_table(middle);
+  const base::Vector2 right = view_.to_table(middle + base::Vector2(1, 0)) - at;
+  const base::Vector2 down = view_.to_table(middle + base::Vector2(0, 1)) - at;
+  mirrors_ = right.x() * down.y() - right.y() * down.x() < 0;
   if (!view_.bends()) return;
   cell_ = std::max(8.0, std::max(view_.frame_width(), view_.frame_height()) / 160.0);
   columns_ = int(std::ceil(view_.frame_width() / cell_)) + 2;

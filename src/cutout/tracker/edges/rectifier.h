@@ -22,6 +22,8 @@ class Rectifier {
     const double w = m20_ * x + m21_ * y + m22_;
     return {(m00_ * x + m01_ * y + m02_) / w, (m10_ * x + m11_ * y + m12_) / w};
   }
+  /// Is what turns to the right in the frame turning to the left on the table?
+  bool mirrors() const { return mirrors_; }
   /// Is the place at most half the table's size beyond its border?
   bool near_table(const base::Vector2& mm) const {
     const double wide = view_.table_width(), high = view_.table_height();
@@ -35,6 +37,7 @@ class Rectifier {
 
   TableView view_;
   double m00_, m01_, m02_, m10_, m11_, m12_, m20_, m21_, m22_;
+  bool mirrors_ = false;
   double cell_ = 8;  // pixels between nodes
   int columns_ = 0, rows_ = 0;
   std::vector<base::Vector2> shifts_;  // pixels, at the nodes; empty for a lens that does not bend

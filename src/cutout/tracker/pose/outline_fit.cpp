@@ -35,8 +35,9 @@ const LinearLight& linear_light() {
 }  // namespace
 
 ColourClass OutlineFit::class_at(double x, double y) const {
-  const int px = int(std::lround(x)), py = int(std::lround(y));
-  if (px < 0 || py < 0 || px >= frame_.width || py >= frame_.height) return ColourClass::Other;
+  if (!(x > -0.5 && y > -0.5 && x < frame_.width && y < frame_.height)) return ColourClass::Other;
+  const int px = int(x + 0.5), py = int(y + 0.5);
+  if (px >= frame_.width || py >= frame_.height) return ColourClass::Other;
   return colours_->of(frame_.row(py) + 3 * px);
 }
 
@@ -98,13 +99,15 @@ OutlineFit::Outcome OutlineFit::cross(const Vector2& predicted, const Vector2& i
                                       int window, Vector2& found, bool& near) const {
   // Along a row where the edge is steep, else along a column; exactly through the centres of pixels.
   const bool by_row = std::abs(inward.x()) >= std::abs(inward.y());
-  const int line = int(std::lround(by_row ? predicted.y() : predicted.x()));
+  const double across = by_row ? predicted.y() : predicted.x();
+  if (!(across > -0.5 && across < 1e6)) return Outcome::Unknown;
+  const int line = int(across + 0.5);
   const double slope = by_row ? tangent.x() / tangent.y() : tangent.y() / tangent.x();
   const double middle = by_row ? predicted.x() + slope * (line - predicted.y())
                                : predicted.y() + slope * (line - predicted.x());
   const int lines = by_row ? frame_.height : frame_.width, size = by_row ? frame_.width : frame_.height;
-  if (!(middle > -1e6 && middle < 1e6) || line < 0 || line >= lines) return Outcome::Unknown;
-  const int centre = int(std::lround(middle));
+  if (!(middle > -0.5 && middle < 1e6) || line >= lines) return Outcome::Unknown;
+  const int centre = int(middle + 0.5);
   const int reach = window + kPlateau + 2;
   if (centre - reach < 0 || centre + reach >= size) return Outcome::Unknown;
   const std::ptrdiff_t step = by_row ? 3 : std::ptrdiff_t(frame_.row_bytes);
@@ -291,15 +294,15 @@ OutlineFitted OutlineFit::fit(const TriangleShape& shape, const Placed& from, do
   const int wide = std::clamp(int(std::ceil(window)), kFineWindow, kMostWindow);
   if (wide > kFineWindow) {
     measure(shape, fitted.placed, wide, 5, {});
-    if (!solve(shape, fitted.placed, from, (wide + 2) * pixel_, 3, prior, fitted.information) ||
-        !solve(shape, fitted.placed, from, 3 * pixel_, 3, prior, fitted.information))
+    if (!solve(shape, fitted.placed, from, (wide + 2) * pixel_, 2, prior, fitted.information) ||
+        !solve(shape, fitted.placed, from, 3 * pixel_, 2, prior, fitted.information))
       return fitted;
   }
   for (int round = 0; round < 2; ++round) {
     const Placed before = fitted.placed;
     measure(shape, fitted.placed, kFineWindow, 2, neighbours);
-    if (!solve(shape, fitted.placed, from, 2 * pixel_, 2, prior, fitted.information) ||
-        !solve(shape, fitted.placed, from, 1 * pixel_, 3, prior, fitted.information))
+    if (!solve(shape, fitted.placed, from, 2 * pixel_, 1, prior, fitted.information) ||
+        !solve(shape, fitted.placed, from, 1 * pixel_, 2, prior, fitted.information))
       return fitted;
     const double moved = (fitted.placed.centroid - before.centroid).norm() +
                          std::abs(fitted.placed.turn - before.turn) * shape.reach;

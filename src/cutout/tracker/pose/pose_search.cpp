@@ -17,10 +17,12 @@ constexpr double kMostAgainst = 0.1;
 constexpr double kMostBeyond = 0.1;          // blue beyond that no other triangle explains
 constexpr double kMostBeyondAtFirst = 0.35;  // before the others are known
 
-constexpr double kMostLoose = 0.45;     // pixels that edges lie about the outline, root of the mean square
-constexpr double kNearlyAsGood = 0.75;  // of a score, from which another explanation casts doubt
-constexpr double kSharedPlaces = 0.5;   // share of places by which two candidates explain the same edges
-constexpr int kSeenPlaces = 3;          // of an edge that count as a sight of it
+constexpr double kMostLoose = 0.45;       // pixels that edges lie about the outline, root of the mean square
+constexpr double kCertainSupport = 0.85;  // of a triangle that is seen all around
+constexpr double kCertainRms = 0.3;       // pixels
+constexpr double kNearlyAsGood = 0.75;    // of a score, from which another explanation casts doubt
+constexpr double kSharedPlaces = 0.5;     // share of places by which two candidates explain the same edges
+constexpr int kSeenPlaces = 3;            // of an edge that count as a sight of it
 
 /// Pixels of outline that speak for a candidate, less those against it.
 double score_of(const OutlineEvidence& evidence, double circumference) {
@@ -79,8 +81,16 @@ void PoseSearch::choose_hypotheses(const OutlineFit& fit) {
 
 void PoseSearch::fit_hypotheses(OutlineFit& fit, std::span<const Neighbour> neighbours) {
   candidate_count_ = 0;
+  std::vector<Neighbour> certain;
+  std::vector<bool> done(shapes_.size(), false);
   for (const auto& [score, index] : ranked_) {
     const PoseHypothesis& hypothesis = hypotheses_[index];
+    // Nothing is seen of a triangle that lies on one that is seen all around.
+    if (done[hypothesis.triangle]) continue;
+    const bool within = std::any_of(certain.begin(), certain.end(), [&](const Neighbour& other) {
+      return depth_within(*other.shape, other.placed, hypothesis.placed.centroid) > 0;
+    });
+    if (within) continue;
     const OutlineFitted fitted =
         fit.fit(shapes_[hypothesis.triangle], hypothesis.placed, kColdWindow, PosePrior{}, neighbours);
     if (!may_be(fitted.evidence) || fitted.evidence.beyond() > kMostBeyondAtFirst) continue;
@@ -90,6 +100,11 @@ void PoseSearch::fit_hypotheses(OutlineFit& fit, std::span<const Neighbour> neig
     candidate.score = score_of(fitted.evidence, shapes_[hypothesis.triangle].circumference /
                                                     rectifier_->mm_per_pixel(fitted.placed.centroid));
     candidate.whole = fitted.evidence.edges_with(kSeenPlaces) == 3;
+    if (candidate.whole && fitted.evidence.support() >= kCertainSupport &&
+        fitted.evidence.rms <= kCertainRms && fitted.evidence.contradicted == 0) {
+      certain.push_back({&shapes_[hypothesis.triangle], fitted.placed});
+      done[hypothesis.triangle] = true;
+    }
     candidate.pixels.assign(fit.supported_pixels().begin(), fit.supported_pixels().end());
   }
 }
