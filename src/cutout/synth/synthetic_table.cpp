@@ -11,6 +11,7 @@
 #include "cutout/synth/hand_shape.h"
 #include "cutout/synth/motion.h"
 #include "cutout/synth/sensor.h"
+#include "cutout/synth/synthetic_board.h"
 #include "cutout/synth/synthetic_camera.h"
 #include "io/file_bytes.h"
 
@@ -491,6 +492,17 @@ SyntheticTable::Made SyntheticTable::make(int number) const {
 
 SyntheticTable::Made SyntheticTable::make_empty(int number) const {
   return parts_->developed_of(parts_->background, number);
+}
+
+SyntheticTable::Made SyntheticTable::make_board(int number) const {
+  const SyntheticOptions& options = parts_->options;
+  const Chessboard board;
+  LinearPicture picture = parts_->background;
+  paint_board(picture, parts_->camera,
+              board_place(number, options.frames, options.table_width, options.table_height,
+                          options.thickness, board, options.seed),
+              board, 0.9);
+  return parts_->developed_of(picture, number);
 }
 
 TableView SyntheticTable::view() const {

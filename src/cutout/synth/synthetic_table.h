@@ -67,6 +67,9 @@ class SyntheticTable {
   Made make(int number) const;
   /// The table without triangles and hands.
   Made make_empty(int number) const;
+  /// The chessboard before the empty table, for a calibration: held in various ways, and in the last picture
+  /// of `options.frames` flat on the table.
+  Made make_board(int number) const;
   /// How its camera sees the table, exactly.
   TableView view() const;
   /// How many hands were read from photos.

@@ -8,10 +8,10 @@
 namespace icome::cutout {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kOneDegreeOfList = std::numbers::pi / 180.0;
 
 KnownTriangle shape(const char* id, double degrees, double height) {
-  return {id, degrees * kDegree, height, ""};
+  return {id, degrees * kOneDegreeOfList, height, ""};
 }
 
 bool mentions(const std::vector<std::string>& sentences, const std::string& part) {
@@ -21,13 +21,14 @@ bool mentions(const std::vector<std::string>& sentences, const std::string& part
 }
 
 TEST(KnownTriangles, AreReadAsTheyAreWritten) {
-  const KnownTriangles known = {{{"fox", 71.3 * kDegree, 80.25, "fox \"head\"\n"}, shape("boat", 40, 55)}};
+  const KnownTriangles known = {
+      {{"fox", 71.3 * kOneDegreeOfList, 80.25, "fox \"head\"\n"}, shape("boat", 40, 55)}};
   const auto read = read_known_triangles(known_triangles_text(known), "list.toml");
   ASSERT_TRUE(read) << read.error().message;
   ASSERT_EQ(read->triangles.size(), 2U);
   EXPECT_EQ(read->triangles[0].id, "fox");
   EXPECT_EQ(read->triangles[0].cell, "fox \"head\"\n");
-  EXPECT_NEAR(read->triangles[0].base_angle, 71.3 * kDegree, 1e-12);
+  EXPECT_NEAR(read->triangles[0].base_angle, 71.3 * kOneDegreeOfList, 1e-12);
   EXPECT_NEAR(read->triangles[0].height, 80.25, 1e-12);
   EXPECT_TRUE(read->triangles[1].cell.empty());
 }
@@ -82,10 +83,10 @@ TEST(KnownTriangles, WarnOfThreeThatMakeAFourth) {
 // falls into an acute one and an obtuse one of base angles 36, whose legs are the acute one's.
 TEST(KnownTriangles, WarnOfTwoThatMakeAThird) {
   const double leg = 100.0;
-  const double base = 2.0 * leg * std::cos(72 * kDegree);
-  const KnownTriangles known = {{shape("whole", 72, leg * std::sin(72 * kDegree)),
-                                 shape("acute", 72, base * std::sin(72 * kDegree)),
-                                 shape("obtuse", 36, base * std::sin(36 * kDegree))}};
+  const double base = 2.0 * leg * std::cos(72 * kOneDegreeOfList);
+  const KnownTriangles known = {{shape("whole", 72, leg * std::sin(72 * kOneDegreeOfList)),
+                                 shape("acute", 72, base * std::sin(72 * kOneDegreeOfList)),
+                                 shape("obtuse", 36, base * std::sin(36 * kOneDegreeOfList))}};
   EXPECT_TRUE(mentions(warnings_of(known), "'acute' and 'obtuse', laid together, look like 'whole'"));
 }
 
