@@ -108,7 +108,10 @@ void Crossings::add(const FrameView& frame, const ColourClasses& colours, const 
   for (int i = -2; i <= 1; ++i) side_slope += 2 * (s[i * along + across] - s[i * along - across]);
   if (along_row ? std::abs(side_slope) > std::abs(slope) : std::abs(side_slope) >= std::abs(slope)) return;
   const double before = s[-along], after = s[0];
-  const double part = before == after ? 0.5 : std::clamp(before / (before - after), 0.0, 1.0) - 1.0;
+  // Where the signal is at the threshold itself, which may lie a little before these two.
+  const double level = -kNeutral / 2;
+  const double part =
+      before == after ? -0.5 : std::clamp((level - before) / (after - before), -1.0, 1.0) - 1.0;
   const double size = std::sqrt(double(slope) * slope + double(side_slope) * side_slope);
   const Vector2 way =
       along_row ? Vector2(slope / size, side_slope / size) : Vector2(side_slope / size, slope / size);

@@ -20,6 +20,8 @@ constexpr double kMostBeyondAtFirst = 0.35;  // before the others are known
 constexpr double kMostLoose = 0.45;       // pixels that edges lie about the outline, root of the mean square
 constexpr double kCertainSupport = 0.85;  // of a triangle that is seen all around
 constexpr double kCertainRms = 0.3;       // pixels
+constexpr double kAlikeAngle = 0.07;      // rad
+constexpr double kAlikeReach = 0.1;       // share of it
 constexpr double kNearlyAsGood = 0.75;    // of a score, from which another explanation casts doubt
 constexpr double kSharedPlaces = 0.5;     // share of places by which two candidates explain the same edges
 constexpr int kSeenPlaces = 3;            // of an edge that count as a sight of it
@@ -28,6 +30,12 @@ constexpr int kSeenPlaces = 3;            // of an edge that count as a sight of
 double score_of(const OutlineEvidence& evidence, double circumference) {
   return circumference *
          (evidence.support() * (1 - evidence.rms) - 1.5 * evidence.contradiction() - 0.7 * evidence.beyond());
+}
+
+/// Are the shapes so near that both may fit the same edges?
+bool is_alike(const TriangleShape& a, const TriangleShape& b) {
+  return std::abs(a.corner_angles[1] - b.corner_angles[1]) < kAlikeAngle &&
+         std::abs(a.reach - b.reach) < kAlikeReach * a.reach;
 }
 
 bool may_be(const OutlineEvidence& evidence) {
@@ -88,7 +96,8 @@ void PoseSearch::fit_hypotheses(OutlineFit& fit, std::span<const Neighbour> neig
     // Nothing is seen of a triangle that lies on one that is seen all around.
     if (done[hypothesis.triangle]) continue;
     const bool within = std::any_of(certain.begin(), certain.end(), [&](const Neighbour& other) {
-      return depth_within(*other.shape, other.placed, hypothesis.placed.centroid) > 0;
+      return !is_alike(*other.shape, shapes_[hypothesis.triangle]) &&
+             depth_within(*other.shape, other.placed, hypothesis.placed.centroid) > 0;
     });
     if (within) continue;
     const OutlineFitted fitted =
