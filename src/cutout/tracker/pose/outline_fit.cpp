@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/srgb.h"
 
@@ -17,6 +18,7 @@ constexpr float kLeastHue = 0.3F;        // by which both sides of an edge diffe
 constexpr double kMostSamples = 48;      // of an edge
 constexpr double kSupportReach = 1.2;    // pixels from the outline to an edge that supports it
 constexpr double kWallLight = 0.5;       // of the light of the upper faces, that walls are taken to have
+constexpr double kEdgeBlur = 0.9;        // pixels, standard deviation that edges are taken to have
 constexpr int kFineWindow = 3;           // pixels
 constexpr double kEdgeNoise = 0.1;  // pixels, of one found edge, for its weight against what is known before
 
@@ -30,6 +32,21 @@ const LinearLight& linear_light() {
     return light;
   }();
   return table;
+}
+
+/// Share of a step's height that a blur of deviation kEdgeBlur leaves at a place beside it, pixels.
+double blurred_step(double pixels) { return 0.5 * std::erfc(-pixels / (std::numbers::sqrt2 * kEdgeBlur)); }
+
+/// Distance inwards from the foot of a wall that is seen so many pixels wide to where the light of the
+/// triangle is `level`, pixels: wall and face are steps one after the other.
+double from_foot(double wide, double level) {
+  double least = -3 * kEdgeBlur, most = wide + 3 * kEdgeBlur;
+  for (int i = 0; i < 10; ++i) {
+    const double middle = (least + most) / 2;
+    const double light = kWallLight * blurred_step(middle) + (1 - kWallLight) * blurred_step(middle - wide);
+    (light < level ? least : most) = middle;
+  }
+  return (least + most) / 2;
 }
 
 }  // namespace
@@ -96,7 +113,7 @@ OutlineEvidence OutlineFit::glance(const TriangleShape& shape, const Placed& pla
 }
 
 OutlineFit::Outcome OutlineFit::cross(const Vector2& predicted, const Vector2& inward, const Vector2& tangent,
-                                      int window, Vector2& found, bool& near) const {
+                                      int window, float level, Vector2& found, bool& near) const {
   // Along a row where the edge is steep, else along a column; exactly through the centres of pixels.
   const bool by_row = std::abs(inward.x()) >= std::abs(inward.y());
   const double across = by_row ? predicted.y() : predicted.x();
@@ -161,10 +178,10 @@ OutlineFit::Outcome OutlineFit::cross(const Vector2& predicted, const Vector2& i
   const auto share = [&](int i) { return scale * (blue_of(i) * table_red - red_of(i) * table_blue); };
   int i = best;
   float before = share(i - 1), after = share(i);
-  while (i > best - 3 && before > 0.5F) after = before, before = share(--i - 1);
-  while (i < best + 3 && after <= 0.5F) before = after, after = share(++i);
-  if (!(before <= 0.5F && after > 0.5F)) return Outcome::Unknown;
-  const double place = centre + side * (i - 1 + (0.5 - before) / (after - before));
+  while (i > best - 3 && before > level) after = before, before = share(--i - 1);
+  while (i < best + 3 && after <= level) before = after, after = share(++i);
+  if (!(before <= level && after > level)) return Outcome::Unknown;
+  const double place = centre + side * (i - 1 + (level - before) / (after - before));
   near = plateau != kPlateau;
   found = by_row ? Vector2(place, line) : Vector2(line, place);
   return Outcome::Supported;
@@ -174,11 +191,14 @@ void OutlineFit::measure(const TriangleShape& shape, const Placed& placed, int w
                          std::span<const Neighbour> neighbours) {
   samples_.clear();
   std::array<Vector2, 3> corners = corners_of(shape, placed);
-  // Walls that are seen below the edges move the outline of blue out, by as much as they are bright.
+  // Walls that are seen below the edges move the outline of blue out.
+  std::array<float, 3> levels{};
   for (std::size_t edge = 0; edge < 3; ++edge) {
     const Vector2 normal = turned(shape.normals[edge], std::cos(placed.turn), std::sin(placed.turn));
     const Vector2 middle = (corners[edge] + corners[(edge + 1) % 3]) / 2;
-    walls_[edge] = kWallLight * std::max(0.0, -normal.dot(rectifier_->view().wall_at(middle)));
+    const double wide = std::max(0.0, -normal.dot(rectifier_->view().wall_at(middle))) / pixel_;
+    levels[edge] = float(0.5 - 0.25 * std::clamp((wide - 0.5) / 1.5, 0.0, 1.0));
+    walls_[edge] = wide > 0 ? pixel_ * (wide - from_foot(wide, levels[edge])) : 0.0;
   }
   std::array<Vector2, 3> pixels;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -199,8 +219,8 @@ void OutlineFit::measure(const TriangleShape& shape, const Placed& placed, int w
       sample.edge = int(edge);
       sample.residual = 0;
       sample.near = false;
-      sample.outcome =
-          cross(at, seen.inward, way + 4 * (1 - 2 * t) * bend, window, sample.pixel, sample.near);
+      sample.outcome = cross(at, seen.inward, way + 4 * (1 - 2 * t) * bend, window, levels[edge],
+                             sample.pixel, sample.near);
       if (sample.outcome == Outcome::Supported)
         sample.place = rectifier_->to_table(sample.pixel.x(), sample.pixel.y());
       if (sample.outcome == Outcome::BlueBeyond) {

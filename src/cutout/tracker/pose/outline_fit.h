@@ -90,7 +90,7 @@ class OutlineFit {
   void measure(const TriangleShape& shape, const Placed& placed, int window, double spacing,
                std::span<const Neighbour> neighbours);
   Outcome cross(const Vector2& predicted, const Vector2& inward, const Vector2& tangent, int window,
-                Vector2& found, bool& near) const;
+                float level, Vector2& found, bool& near) const;
   bool solve(const TriangleShape& shape, Placed& placed, const Placed& from, double reach, int rounds,
              const PosePrior& prior, base::Matrix3& information);
   void judge(const TriangleShape& shape, const Placed& placed, OutlineEvidence& evidence);

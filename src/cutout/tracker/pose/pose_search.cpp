@@ -24,12 +24,23 @@ constexpr double kAlikeAngle = 0.07;      // rad
 constexpr double kAlikeReach = 0.1;       // share of it
 constexpr double kNearlyAsGood = 0.75;    // of a score, from which another explanation casts doubt
 constexpr double kSharedPlaces = 0.5;     // share of places by which two candidates explain the same edges
+constexpr double kSeenShare = 0.12;       // of an edge that count as a sight of it
+constexpr double kLeastOfTwo = 0.3;       // share of the outline, of two edges alone
 constexpr int kSeenPlaces = 3;            // of an edge that count as a sight of it
 
 /// Pixels of outline that speak for a candidate, less those against it.
 double score_of(const OutlineEvidence& evidence, double circumference) {
   return circumference *
          (evidence.support() * (1 - evidence.rms) - 1.5 * evidence.contradiction() - 0.7 * evidence.beyond());
+}
+
+/// Is something seen of each edge?
+bool is_whole(const OutlineEvidence& evidence) {
+  for (std::size_t edge = 0; edge < 3; ++edge)
+    if (evidence.supported_of[edge] < kSeenPlaces ||
+        evidence.supported_of[edge] < kSeenShare * evidence.places_of[edge])
+      return false;
+  return true;
 }
 
 /// Are the shapes so near that both may fit the same edges?
@@ -108,7 +119,7 @@ void PoseSearch::fit_hypotheses(OutlineFit& fit, std::span<const Neighbour> neig
     candidate.pose = {hypothesis.triangle, fitted};
     candidate.score = score_of(fitted.evidence, shapes_[hypothesis.triangle].circumference /
                                                     rectifier_->mm_per_pixel(fitted.placed.centroid));
-    candidate.whole = fitted.evidence.edges_with(kSeenPlaces) == 3;
+    candidate.whole = is_whole(fitted.evidence);
     if (candidate.whole && fitted.evidence.support() >= kCertainSupport &&
         fitted.evidence.rms <= kCertainRms && fitted.evidence.contradicted == 0) {
       certain.push_back({&shapes_[hypothesis.triangle], fitted.placed});
@@ -172,7 +183,8 @@ void PoseSearch::accept(OutlineFit& fit, const SearchWish& wish, Claims& claims,
     if (candidate->whole && take(*candidate, claims)) accepted.push_back(candidate);
   // Two edges alone may belong to several triangles, or to one in several ways: then nothing is known.
   for (const Candidate* candidate : best)
-    if (!candidate->whole && !is_doubtful(*candidate, wish) && take(*candidate, claims))
+    if (!candidate->whole && candidate->pose.fitted.evidence.support() >= kLeastOfTwo &&
+        !is_doubtful(*candidate, wish) && take(*candidate, claims))
       accepted.push_back(candidate);
   // Blue beyond an edge must belong to another triangle: now all are known.
   std::vector<Neighbour> others;
