@@ -328,6 +328,26 @@ TEST(PoseTracker, FindsATriangleAgainThatWasMovedInTheDark) {
   }
 }
 
+TEST(PoseTracker, AdaptsToColoursThatSlowlyChange) {
+  // The table fades until what is red for a tracker that begins then is red no longer.
+  const TableView view = TableView::whole_frame(320, 240, 320, 240);
+  const KnownTriangles known = drawn_triangles(2);
+  const std::vector<TrianglePose> truth = {{{90, 120}, 1}, {{230, 120}, 2}};
+  const std::unique_ptr<Tracker> tracker = make_pose_tracker(known, view);
+  for (int number = 0; number <= 40; ++number) {
+    const double faded = 90 * number / 40.0;
+    DrawnTable table(view, {40 + faded, 35 + faded, 190});
+    for (std::size_t i = 0; i < 2; ++i) table.triangle(known.triangles[i], truth[i]);
+    const Frame frame = table.frame(3, std::uint64_t(number));
+    expect_all_near(tracker->see(frame.view(), number).value(), truth, 0.3, 0.4);
+    if (number == 40) {
+      EXPECT_TRUE(make_pose_tracker(known, view)->see(frame.view(), 0).value().empty());
+      tracker->forget();  // also what it learnt of colours
+      EXPECT_TRUE(tracker->see(frame.view(), number + 1).value().empty());
+    }
+  }
+}
+
 TEST(PoseTracker, RefusesAFrameOfAnotherSize) {
   const Frame frame = plain_frame(320, 240, 0, 0, 200);
   const auto seen = make_pose_tracker(drawn_triangles(1), plain_view())->see(frame.view(), 0);

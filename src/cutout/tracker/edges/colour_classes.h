@@ -31,8 +31,13 @@ class ColourClasses {
  private:
   void fill();
 
-  double red_over_green_ = 0.45, red_over_blue_ = 0.40;  // least shares of the greatest channel, for red
-  double blue_over_red_ = 0.15;                          // and for blue
+  /// Least shares of the greatest channel.
+  struct Limits {
+    double red_over_green = 0.45, red_over_blue = 0.40;  // of red
+    double blue_over_red = 0.15;                         // of blue
+  };
+
+  Limits limits_;
   int threshold_ = 0;
   std::vector<ColourClass> table_;
 };

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -17,9 +18,13 @@ constexpr double kSureSupport = 0.3;  // share by which a new triangle of three 
 constexpr double kSureRms = 0.35;     // pixels
 constexpr double kLeastWindow = 6;    // pixels about a prediction
 constexpr double kWidestWindow = 20;
-constexpr double kLongestStep = 0.5;  // s between frames over which motion is foreseen
-constexpr double kRestless = 3;       // deviations from what noise explains, from which a triangle moves
-constexpr int kPatience = 3;          // frames between full searches while nothing new is found
+constexpr double kLongestStep = 0.5;   // s between frames over which motion is foreseen
+constexpr double kRestless = 3;        // deviations from what noise explains, from which a triangle moves
+constexpr double kColourPause = 0.5;   // s between looks at the colours
+constexpr int kColourRows = 20;        // of places in a frame, and columns
+constexpr int kLeastTablePlaces = 40;  // of these that must be red
+constexpr int kColourMemory = 8;       // looks over which colours are averaged
+constexpr int kPatience = 3;           // frames between full searches while nothing new is found
 
 /// What is known of a triangle over time.
 struct TriangleTrack {
@@ -49,6 +54,9 @@ class PoseTracker : public Tracker {
     std::fill(tracks_.begin(), tracks_.end(), TriangleTrack{});
     std::fill(lost_.begin(), lost_.end(), LastSeen{});
     last_time_.reset();
+    colours_ = ColourClasses();
+    colour_looks_ = 0;
+    colours_seen_ = -1e9;
   }
 
  private:
@@ -56,6 +64,7 @@ class PoseTracker : public Tracker {
   void follow_one(std::size_t triangle, double time);
   void part_doubles();
   void search_missing(const FrameView& frame, double time);
+  void adapt_colours(const FrameView& frame, double time);
   Placed foreseen(const TriangleTrack& track, double time) const;
   void update(TriangleTrack& track, const OutlineFitted& fitted, double time);
   std::vector<Neighbour> neighbours_of(std::size_t triangle) const;
@@ -76,6 +85,9 @@ class PoseTracker : public Tracker {
   };
   std::vector<LastSeen> lost_;  // of each triangle, when it was last seen for sure
   std::optional<double> last_time_;
+  std::array<double, 3> table_bgr_{}, triangle_bgr_{};  // running means
+  int colour_looks_ = 0;                                // that went into them
+  double colours_seen_ = -1e9;                          // s, when they were last looked at
   bool follows_;
   int idle_searches_ = 0;  // full searches without a find, one after the other
   int skipped_ = 0;        // frames since the last full search
@@ -213,6 +225,42 @@ void PoseTracker::search_missing(const FrameView& frame, double time) {
   }
 }
 
+void PoseTracker::adapt_colours(const FrameView& frame, double time) {
+  // Light changes slowly: a few hundred places, now and then. Limits are moved only when they matter.
+  if (time - colours_seen_ < kColourPause) return;
+  colours_seen_ = time;
+  std::array<double, 3> table{}, triangle{};
+  int table_count = 0, triangle_count = 0;
+  const auto add = [](std::array<double, 3>& sum, const std::uint8_t* bgr) {
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += bgr[i];
+  };
+  for (int row = 0; row < kColourRows; ++row)
+    for (int column = 0; column < kColourRows; ++column) {
+      const int x = (2 * column + 1) * frame.width / (2 * kColourRows);
+      const std::uint8_t* bgr = frame.row((2 * row + 1) * frame.height / (2 * kColourRows)) + 3 * x;
+      if (colours_.of(bgr) != ColourClass::Red) continue;
+      add(table, bgr);
+      ++table_count;
+    }
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const TriangleTrack& track = tracks_[i];
+    if (!track.sure || track.seen != time || track.confidence < 0.5) continue;
+    const Vector2 pixel = rectifier_.view().to_pixel(track.placed.centroid);
+    if (!(pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < frame.width && pixel.y() < frame.height)) continue;
+    const std::uint8_t* bgr = frame.row(int(pixel.y())) + 3 * int(pixel.x());
+    if (colours_.of(bgr) != ColourClass::Blue) continue;
+    add(triangle, bgr);
+    ++triangle_count;
+  }
+  if (table_count < kLeastTablePlaces || triangle_count == 0) return;
+  const double share = 1.0 / std::min(++colour_looks_, kColourMemory);
+  for (std::size_t i = 0; i < 3; ++i) {
+    table_bgr_[i] += share * (table[i] / table_count - table_bgr_[i]);
+    triangle_bgr_[i] += share * (triangle[i] / triangle_count - triangle_bgr_[i]);
+  }
+  colours_.adapt(table_bgr_.data(), triangle_bgr_.data());
+}
+
 base::Result<std::vector<Sighting>> PoseTracker::see(const FrameView& frame, double time) {
   if (auto good = check_frame_size(frame, rectifier_.view()); !good) return tl::unexpected(good.error());
   if (!follows_ || (last_time_ && (time < *last_time_ || time > *last_time_ + 2))) forget();
@@ -222,6 +270,7 @@ base::Result<std::vector<Sighting>> PoseTracker::see(const FrameView& frame, dou
   follow(time);
   part_doubles();
   search_missing(frame, time);
+  if (follows_) adapt_colours(frame, time);
   std::vector<Sighting> seen;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     TriangleTrack& track = tracks_[i];
