@@ -12,11 +12,16 @@ namespace {
 
 constexpr double kLongestMemory = 3;      // s that a place is remembered, to settle what is doubtful
 constexpr double kLongestGlide = 0.05;    // s that a hidden triangle is still reported, where it would be
+constexpr double kStillMoved = 1.5;       // pixels that it may have moved since
 constexpr double kTrackedSupport = 0.12;  // share of the outline by which a triangle is followed
 constexpr double kTrackedAgainst = 0.25;
-constexpr double kSureSupport = 0.3;  // share by which a new triangle of three edges is believed at once
-constexpr double kSureRms = 0.35;     // pixels
-constexpr double kLeastWindow = 6;    // pixels about a prediction
+constexpr double kTrackedBeyond = 0.4;  // blue beyond that no other triangle explains
+constexpr double kMovedSupport = 0.22;  // share by which it is believed where it was not foreseen
+constexpr double kForeseenPlace = 3;    // pixels
+constexpr double kForeseenTurn = 0.05;  // rad
+constexpr double kSureSupport = 0.3;    // share by which a new triangle of three edges is believed at once
+constexpr double kSureRms = 0.35;       // pixels
+constexpr double kLeastWindow = 6;      // pixels about a prediction
 constexpr double kWidestWindow = 20;
 constexpr double kLongestStep = 0.5;   // s between frames over which motion is foreseen
 constexpr double kRestless = 3;        // deviations from what noise explains, from which a triangle moves
@@ -124,8 +129,9 @@ void PoseTracker::update(TriangleTrack& track, const OutlineFitted& fitted, doub
     now.turn = track.placed.turn + share * off.z();
     const Vector2 velocity = (fitted.placed.centroid - track.placed.centroid) / step;
     const double spin = off.z() / step;
-    track.velocity = gain > 0.5 ? velocity : Vector2(0.5 * track.velocity);
-    track.spin = gain > 0.5 ? spin : 0.5 * track.spin;
+    const bool moves = gain > 0.5 && fitted.evidence.support() >= kMovedSupport;
+    track.velocity = moves ? velocity : Vector2(0.5 * track.velocity);
+    track.spin = moves ? spin : 0.5 * track.spin;
   } else {
     track.velocity.setZero();
     track.spin = 0;
@@ -144,11 +150,16 @@ void PoseTracker::follow_one(std::size_t triangle, double time) {
   const double moved =
       step * (track.velocity.norm() + std::abs(track.spin) * shapes_[triangle].reach) / pixel;
   const std::vector<Neighbour> neighbours = neighbours_of(triangle);
-  const auto holds = [](const OutlineFitted& fitted) {
+  const auto holds = [&](const OutlineFitted& fitted) {
     const OutlineEvidence& evidence = fitted.evidence;
-    return evidence.support() >= kTrackedSupport && evidence.contradiction() <= kTrackedAgainst &&
-           evidence.contradiction() <= evidence.support() && evidence.beyond() <= 0.4 &&
-           evidence.edges_with(2) >= 2;
+    if (evidence.support() < kTrackedSupport || evidence.contradiction() > kTrackedAgainst ||
+        evidence.contradiction() > evidence.support() || evidence.beyond() > kTrackedBeyond ||
+        evidence.edges_with(2) < 2)
+      return false;
+    // Little that is seen can tell that a triangle is where it was foreseen, not that it has moved elsewhere.
+    return evidence.support() >= kMovedSupport ||
+           ((fitted.placed.centroid - guess.centroid).norm() < kForeseenPlace * pixel &&
+            std::abs(within_half_turn(fitted.placed.turn - guess.turn)) < kForeseenTurn);
   };
   const double first = std::clamp(kLeastWindow + 0.3 * moved, kLeastWindow, kWidestWindow);
   OutlineFitted fitted = fit_.fit(shapes_[triangle], guess, first, {6 * pixel, 0.1}, neighbours);
@@ -285,7 +296,12 @@ base::Result<std::vector<Sighting>> PoseTracker::see(const FrameView& frame, dou
       track = {};
       continue;
     }
-    seen.push_back({i, pose_of(foreseen(track, time)), 0.0});
+    // Something that moves may do anything while it is hidden.
+    const Placed guess = foreseen(track, time);
+    const double moved = (guess.centroid - track.placed.centroid).norm() +
+                         std::abs(guess.turn - track.placed.turn) * shapes_[i].reach;
+    if (moved < kStillMoved * rectifier_.mm_per_pixel(guess.centroid))
+      seen.push_back({i, pose_of(guess), 0.0});
   }
   return seen;
 }
