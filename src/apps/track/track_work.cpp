@@ -20,13 +20,14 @@ base::Result<std::optional<std::pair<int, int>>> size_of(const std::string& text
   if (text.empty()) return std::nullopt;
   const std::size_t cross = text.find('x');
   constexpr int kMostSide = 16384;
-  const auto width = base::parse_number<int>(std::string_view(text).substr(0, cross));
-  const auto height = cross == std::string::npos
-                          ? std::nullopt
-                          : base::parse_number<int>(std::string_view(text).substr(cross + 1));
-  if (!width || !height || *width < 1 || *height < 1 || *width > kMostSide || *height > kMostSide)
+  int width = 0, height = 0;  // 0: no number
+  if (cross != std::string::npos) {
+    width = base::parse_number<int>(std::string_view(text).substr(0, cross)).value_or(0);
+    height = base::parse_number<int>(std::string_view(text).substr(cross + 1)).value_or(0);
+  }
+  if (width < 1 || height < 1 || width > kMostSide || height > kMostSide)
     return base::fail(fmt::format("--size is {}; write WxH in pixels, such as 640x480", text));
-  return std::pair(*width, *height);
+  return std::pair(width, height);
 }
 
 base::Result<std::unique_ptr<cutout::FrameSource>> open_for(const TrackOptions& options) {

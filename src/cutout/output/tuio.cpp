@@ -13,7 +13,7 @@
 namespace icome::cutout {
 namespace {
 
-constexpr std::size_t kMostInBundle = 24;  // objects, so that a datagram stays below 1.5 kB
+constexpr std::size_t kMostInBundle = 12;  // objects, so that a datagram stays below 1.5 kB
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
 void append_big_endian(std::string& bytes, std::uint32_t number) {
