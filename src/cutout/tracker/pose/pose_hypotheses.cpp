@@ -16,6 +16,7 @@ constexpr double kExtentTolerance = 5;       // pixels that a piece may reach be
 
 PoseHypotheses::PoseHypotheses(std::span<const TriangleShape> shapes)
     : shapes_(shapes.begin(), shapes.end()) {
+  for (const TriangleShape& shape : shapes_) largest_reach_ = std::max(largest_reach_, shape.reach);
   for (std::uint32_t triangle = 0; triangle < shapes_.size(); ++triangle)
     for (std::uint32_t corner = 0; corner < 3; ++corner)
       corners_.push_back({shapes_[triangle].corner_angles[corner], triangle, corner});
@@ -64,9 +65,12 @@ void PoseHypotheses::find(std::span<const EdgeSegment> segments, double pixel,
                           const std::vector<bool>& wanted, std::vector<PoseHypothesis>& found) const {
   found.clear();
   PoseHypothesis hypothesis;
+  std::size_t tries = 0;
+  const double farthest = 2 * largest_reach_ + kExtentTolerance * pixel;  // between middles of two edges
   for (std::size_t second = 1; second < segments.size(); ++second)
     for (std::size_t first = 0; first < second; ++first) {
       const EdgeSegment *before = &segments[first], *after = &segments[second];
+      if ((before->middle() - after->middle()).squaredNorm() > farthest * farthest) continue;
       double turn = within_half_turn(after->angle - before->angle);
       if (turn < 0) {
         std::swap(before, after);
@@ -80,6 +84,7 @@ void PoseHypotheses::find(std::span<const EdgeSegment> segments, double pixel,
                                      [](const Corner& c, double least) { return c.angle < least; });
       for (; corner != corners_.end() && corner->angle <= angle + tolerance; ++corner) {
         if (!wanted[corner->triangle]) continue;
+        if (++tries > kMostTries) return;
         if (!place(*corner, *before, *after, pixel, hypothesis)) continue;
         found.push_back(hypothesis);
         if (found.size() >= kMost) return;

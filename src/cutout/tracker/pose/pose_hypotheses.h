@@ -18,7 +18,8 @@ struct PoseHypothesis {
 /// part of both edges may be hidden.
 class PoseHypotheses {
  public:
-  static constexpr std::size_t kMost = 20'000;  ///< those of the pieces with most points are kept
+  static constexpr std::size_t kMost = 10'000;        ///< those of the pieces with most points are kept
+  static constexpr std::size_t kMostTries = 300'000;  ///< pairs with a corner that are looked at
 
   explicit PoseHypotheses(std::span<const TriangleShape> shapes);
 
@@ -37,6 +38,7 @@ class PoseHypotheses {
 
   std::vector<TriangleShape> shapes_;
   std::vector<Corner> corners_;  // by angle
+  double largest_reach_ = 0;     // mm
 };
 
 }  // namespace icome::cutout

@@ -27,7 +27,7 @@ struct SearchWish {
 /// Searches a whole frame for triangles, from nothing.
 class PoseSearch {
  public:
-  static constexpr std::size_t kMostFits = 1500;  ///< hypotheses that are fitted to a frame, the best ones
+  static constexpr std::size_t kMostFits = 500;  ///< hypotheses that are fitted to a frame, the best ones
 
   /// `shapes` and `rectifier` outlive the search.
   PoseSearch(std::span<const TriangleShape> shapes, const Rectifier& rectifier);
