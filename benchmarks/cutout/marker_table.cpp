@@ -34,10 +34,10 @@ struct PlacedMarker {
 };
 
 std::array<std::array<bool, kMarkerCells>, kMarkerCells> cells_of(int id) {
-  static const cv::Ptr<cv::aruco::Dictionary> family =
+  static const cv::Ptr<cv::aruco::Dictionary> kFamily =
       cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11);
   cv::Mat drawn;
-  cv::aruco::drawMarker(family, id, kMarkerCells * 4, drawn, 1);
+  cv::aruco::drawMarker(kFamily, id, kMarkerCells * 4, drawn, 1);
   std::array<std::array<bool, kMarkerCells>, kMarkerCells> white;
   for (int row = 0; row < kMarkerCells; ++row)
     for (int column = 0; column < kMarkerCells; ++column)

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <numbers>
 
+#include "cutout/tracker/edges/nearest_pixel.h"
+
 // The loop over all pixels shuffles bytes where the processor can, which is asked when the program runs.
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -87,7 +89,7 @@ void Crossings::fill_planes(const FrameView& frame, const Grid& grid, int thresh
       signal_of_row(row, signal, grid.width, half_threshold);
     } else {
       signal_of_row(row, whole_row_.data(), frame.width, half_threshold);
-      for (int x = 0; x < grid.width; ++x) signal[x] = whole_row_[std::size_t(x * grid.step)];
+      for (int x = 0; x < grid.width; ++x) signal[x] = whole_row_[std::size_t(x) * std::size_t(grid.step)];
     }
     for (int x = 0; x < width; ++x) sides[x] = signal[x] > 0;
   }
@@ -122,7 +124,7 @@ void Crossings::add(const FrameView& frame, const ColourClasses& colours, const 
   const Vector2 red = pixel - reach * way, blue = pixel + reach * way;
   const auto class_at = [&](const Vector2& place) {
     if (!(place.x() > -0.5 && place.y() > -0.5)) return ColourClass::Other;
-    const int px = int(place.x() + 0.5), py = int(place.y() + 0.5);
+    const int px = nearest_pixel(place.x()), py = nearest_pixel(place.y());
     if (px >= frame.width || py >= frame.height) return ColourClass::Other;
     return colours.of(frame.row(py) + 3 * px);
   };

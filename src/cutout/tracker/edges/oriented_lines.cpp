@@ -32,8 +32,8 @@ struct DirectionTable {
 };
 
 const DirectionTable& directions() {
-  static const DirectionTable table;
-  return table;
+  static const DirectionTable kTable;
+  return kTable;
 }
 
 int wrapped_direction(int direction) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/srgb.h"
+#include "cutout/tracker/edges/nearest_pixel.h"
 
 namespace icome::cutout {
 namespace {
@@ -26,12 +27,12 @@ using LinearLight = std::array<float, 256>;
 
 /// Light of a channel, which sRGB has coded.
 const LinearLight& linear_light() {
-  static const LinearLight table = [] {
+  static const LinearLight kTable = [] {
     LinearLight light;
     for (std::size_t i = 0; i < light.size(); ++i) light[i] = float(base::linear_from_srgb(double(i) / 255));
     return light;
   }();
-  return table;
+  return kTable;
 }
 
 /// Share of a step's height that a blur of deviation kEdgeBlur leaves at a place beside it, pixels.
@@ -53,7 +54,7 @@ double from_foot(double wide, double level) {
 
 ColourClass OutlineFit::class_at(double x, double y) const {
   if (!(x > -0.5 && y > -0.5 && x < frame_.width && y < frame_.height)) return ColourClass::Other;
-  const int px = int(x + 0.5), py = int(y + 0.5);
+  const int px = nearest_pixel(x), py = nearest_pixel(y);
   if (px >= frame_.width || py >= frame_.height) return ColourClass::Other;
   return colours_->of(frame_.row(py) + 3 * px);
 }
@@ -118,13 +119,13 @@ OutlineFit::Outcome OutlineFit::cross(const Vector2& predicted, const Vector2& i
   const bool by_row = std::abs(inward.x()) >= std::abs(inward.y());
   const double across = by_row ? predicted.y() : predicted.x();
   if (!(across > -0.5 && across < 1e6)) return Outcome::Unknown;
-  const int line = int(across + 0.5);
+  const int line = nearest_pixel(across);
   const double slope = by_row ? tangent.x() / tangent.y() : tangent.y() / tangent.x();
   const double middle = by_row ? predicted.x() + slope * (line - predicted.y())
                                : predicted.y() + slope * (line - predicted.x());
   const int lines = by_row ? frame_.height : frame_.width, size = by_row ? frame_.width : frame_.height;
   if (!(middle > -0.5 && middle < 1e6) || line >= lines) return Outcome::Unknown;
-  const int centre = int(middle + 0.5);
+  const int centre = nearest_pixel(middle);
   const int reach = window + kPlateau + 2;
   if (centre - reach < 0 || centre + reach >= size) return Outcome::Unknown;
   const std::ptrdiff_t step = by_row ? 3 : std::ptrdiff_t(frame_.row_bytes);

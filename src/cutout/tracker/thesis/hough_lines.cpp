@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "cutout/tracker/edges/nearest_pixel.h"
+
 namespace icome::cutout {
 namespace {
 
@@ -32,7 +34,7 @@ void HoughLines::find(std::span<const base::Vector2> marks, double pixel, int le
     const double cosine = std::cos(angle * kHoughAngle) / step, sine = std::sin(angle * kHoughAngle) / step;
     std::uint16_t* row = &votes_[std::size_t(angle) * std::size_t(columns)];
     for (const base::Vector2& mark : marks)
-      ++row[int((mark.x() - centre.x()) * cosine + (mark.y() - centre.y()) * sine + shift + 0.5)];
+      ++row[nearest_pixel((mark.x() - centre.x()) * cosine + (mark.y() - centre.y()) * sine + shift)];
   }
   // Half a turn on, a line has its rho the other way round.
   const auto votes_at = [&](int angle, int column) -> int {
