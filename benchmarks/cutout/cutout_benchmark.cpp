@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <cstdlib>
 #include <numbers>
 #include <string>
@@ -68,6 +69,7 @@ void print_figure(const std::string& title, const cutout::SyntheticOptions& opti
     print_score("AprilTag (36h11), markers", apriltag_score);
   }
   fmt::print("\n");
+  std::fflush(stdout);
 }
 
 void print_figures(const CutoutExtent& extent) {
