@@ -30,7 +30,7 @@ double blueness(const std::uint8_t* bgr) {
   return (blue - red) / (red + blue + 12.0);
 }
 constexpr ColourMeasure kTableRed = {redness, 0.3};
-constexpr ColourMeasure kPlasticBlue = {blueness, 0.0};
+constexpr ColourMeasure kPlasticBlue = {blueness, 0.12};
 
 double strength_at(const FrameView& frame, const ColourMeasure& colour, const Vector2& place) {
   const int x = std::clamp(int(std::floor(place.x())), 0, frame.width - 2);
@@ -298,7 +298,7 @@ base::Result<std::array<Vector2, 3>> find_triangle_corners(const FrameView& fram
   double area = 0.5 * turned(three[0], three[1], three[2]);
   if (area < 0) std::ranges::reverse(three);
   area = std::abs(area);
-  constexpr double kLeastFilled = 0.85, kMostFilled = 1.2;
+  constexpr double kLeastFilled = 0.8, kMostFilled = 1.4;
   const double filled = double(piece.pixels) / std::max(1.0, area);
   if (filled < kLeastFilled || filled > kMostFilled)
     return base::fail(
@@ -314,7 +314,7 @@ base::Result<std::array<Vector2, 3>> find_triangle_corners(const FrameView& fram
   std::array<Vector2, 3> corners;
   for (std::size_t i = 0; i < 3; ++i) {
     corners[i] = crossing_of(sides[(i + 2) % 3], sides[i]);
-    if (!corners[i].allFinite() || (corners[i] - three[i]).norm() > 12.0)
+    if (!corners[i].allFinite() || (corners[i] - three[i]).norm() > 25.0)
       return base::fail("a corner of the triangle is hidden or leaves the frame");
   }
   return corners;

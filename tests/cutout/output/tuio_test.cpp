@@ -23,7 +23,7 @@ TEST(Tuio, EmptyTableIsThreeMessages) {
   using std::string_literals::operator""s;
   const std::string expected =
       "#bundle\0\0\0\0\0\0\0\0\1"s
-      "\0\0\0\x24/tuio/2Dobj\0,ss\0source\0\0icome\0\0\0"s
+      "\0\0\0\x20/tuio/2Dobj\0,ss\0source\0\0icome\0\0\0"s
       "\0\0\0\x18/tuio/2Dobj\0,s\0\0alive\0\0\0"s
       "\0\0\0\x1c/tuio/2Dobj\0,si\0fseq\0\0\0\0\0\0\0\1"s;
   EXPECT_EQ(made[0], expected);
