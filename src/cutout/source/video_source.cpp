@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <chrono>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 
@@ -252,7 +252,7 @@ std::string pipeline_words(VideoKind kind, const std::string& address, const Sou
   std::string size;
   if (settings.width > 0 && settings.height > 0)
     size += fmt::format(",width={},height={}", settings.width, settings.height);
-  if (settings.rate > 0) size += fmt::format(",framerate={}/1", std::max(1, int(settings.rate + 0.5)));
+  if (settings.rate > 0) size += fmt::format(",framerate={}/1", std::max(1L, std::lround(settings.rate)));
   switch (kind) {
     case VideoKind::Camera:
       return fmt::format("v4l2src name=origin ! capsfilter caps=\"video/x-raw{};image/jpeg{}\" ! decodebin",

@@ -66,7 +66,7 @@ LinearPicture blurred(const LinearPicture& picture, double sigma) {
     for (int x = 0; x < picture.width; ++x) {
       LinearColour sum{};
       for (int i = -reach; i <= reach; ++i)
-        add_light(sum, weights[std::size_t(i + reach)],
+        add_light(sum, weights[std::size_t(std::ptrdiff_t{i} + reach)],
                   picture.at(std::clamp(x + i, 0, picture.width - 1), y));
       rows.at(x, y) = sum;
     }
@@ -75,7 +75,8 @@ LinearPicture blurred(const LinearPicture& picture, double sigma) {
     for (int x = 0; x < picture.width; ++x) {
       LinearColour sum{};
       for (int i = -reach; i <= reach; ++i)
-        add_light(sum, weights[std::size_t(i + reach)], rows.at(x, std::clamp(y + i, 0, picture.height - 1)));
+        add_light(sum, weights[std::size_t(std::ptrdiff_t{i} + reach)],
+                  rows.at(x, std::clamp(y + i, 0, picture.height - 1)));
       both.at(x, y) = sum;
     }
   return both;
@@ -85,8 +86,8 @@ LinearPicture blurred(const LinearPicture& picture, double sigma) {
 
 Frame developed(const LinearPicture& picture, const SensorSettings& settings, std::uint64_t seed,
                 std::string* jpeg) {
-  static const std::vector<float> noises = normal_numbers();
-  static const std::vector<float> tones = tone_table();
+  static const std::vector<float> kNoiseNumbers = normal_numbers();
+  static const std::vector<float> kToneTable = tone_table();
   const LinearPicture sharp = settings.blur > 0.05 ? blurred(picture, settings.blur) : picture;
   Frame frame;
   frame.width = picture.width;
@@ -97,8 +98,8 @@ Frame developed(const LinearPicture& picture, const SensorSettings& settings, st
   for (std::size_t i = 0; i < sharp.pixels.size(); ++i) {
     if (i % std::size_t(picture.width) == 0) noise = random.index(kNoises);
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      const float tone = tone_of(tones, float(settings.light) * sharp.pixels[i][channel]) +
-                         float(settings.noise) * noises[noise++ % kNoises];
+      const float tone = tone_of(kToneTable, float(settings.light) * sharp.pixels[i][channel]) +
+                         float(settings.noise) * kNoiseNumbers[noise++ % kNoises];
       frame.bgr[byte++] = static_cast<std::uint8_t>(std::clamp(tone + 0.5F, 0.0F, 255.0F));
     }
   }
