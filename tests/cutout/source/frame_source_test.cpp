@@ -13,7 +13,7 @@
 namespace icome::cutout {
 namespace {
 
-const auto never = [] { return false; };
+const auto kNever = [] { return false; };
 
 /// A picture whose pixels tell their place and its number.
 Frame numbered_frame(int width, int height, int number) {
@@ -51,7 +51,7 @@ class FrameSources : public testing::Test {
     EXPECT_TRUE(source) << source.error().message;
     std::vector<int> numbers;
     while (source) {
-      const auto frame = (*source)->next(never);
+      const auto frame = (*source)->next(kNever);
       if (!frame || !*frame) break;
       numbers.push_back((*frame)->bgr[0]);
     }
@@ -65,17 +65,17 @@ TEST_F(FrameSources, PngKeepsEveryPixel) {
   const std::string path = write_png("one.png", 7, 33, 21);
   auto source = open_source(path, {});
   ASSERT_TRUE(source);
-  const auto frame = (*source)->next(never);
+  const auto frame = (*source)->next(kNever);
   ASSERT_TRUE(frame && *frame);
   EXPECT_EQ((*frame)->bgr, numbered_frame(33, 21, 7).bgr);
-  EXPECT_FALSE(*(*source)->next(never));
+  EXPECT_FALSE(*(*source)->next(kNever));
 }
 
 TEST_F(FrameSources, JpegIsReadWithItsSize) {
   const std::string path = write("one.jpeg", *encode_jpeg(numbered_frame(40, 24, 90).view(), 95));
   auto source = open_source(path, {});
   ASSERT_TRUE(source);
-  const auto frame = (*source)->next(never);
+  const auto frame = (*source)->next(kNever);
   ASSERT_TRUE(frame && *frame) << frame.error().message;
   EXPECT_EQ((*frame)->width, 40);
   EXPECT_EQ((*frame)->height, 24);
@@ -106,12 +106,12 @@ TEST_F(FrameSources, DamagedPictureAmongSeveralIsPassedOver) {
   write_png("a3.png", 3);
   auto source = open_source(folder_.string(), {});
   ASSERT_TRUE(source);
-  EXPECT_EQ((**(*source)->next(never)).bgr[0], 1);
-  const auto damaged = (*source)->next(never);
+  EXPECT_EQ((**(*source)->next(kNever)).bgr[0], 1);
+  const auto damaged = (*source)->next(kNever);
   ASSERT_FALSE(damaged);
   EXPECT_NE(damaged.error().message.find("a2.jpg: the JPEG file is damaged or cut off"), std::string::npos)
       << damaged.error().message;
-  const auto third = (*source)->next(never);
+  const auto third = (*source)->next(kNever);
   ASSERT_TRUE(third && *third);
   EXPECT_EQ((*third)->bgr[0], 3);
   EXPECT_DOUBLE_EQ((*third)->time, 2.0 / 30.0);
@@ -122,7 +122,7 @@ TEST_F(FrameSources, SaysWhatIsWrong) {
   const auto complaint = [](const std::string& address) {
     auto source = open_source(address, {.patience = 2.0});
     if (!source) return source.error().message;
-    const auto frame = (*source)->next(never);
+    const auto frame = (*source)->next(kNever);
     return frame ? std::string(*frame ? "a frame" : "the end") : frame.error().message;
   };
   EXPECT_NE(complaint(in_folder("absent.png")).find("there is no such file"), std::string::npos);
@@ -142,10 +142,10 @@ TEST_F(FrameSources, SaysWhatIsWrong) {
 TEST_F(FrameSources, OnePixelAndEightThousand) {
   auto one = open_source(write_png("one.png", 5, 1, 1), {});
   ASSERT_TRUE(one);
-  EXPECT_EQ((**(*one)->next(never)).bgr.size(), 3U);
+  EXPECT_EQ((**(*one)->next(kNever)).bgr.size(), 3U);
   auto wide = open_source(write_png("wide.png", 5, 8192, 16), {});
   ASSERT_TRUE(wide);
-  EXPECT_EQ((**(*wide)->next(never)).width, 8192);
+  EXPECT_EQ((**(*wide)->next(kNever)).width, 8192);
   const auto too_wide = decode_picture(*encode_png(numbered_frame(17000, 1, 1).view()), "huge.png");
   ASSERT_FALSE(too_wide);
   EXPECT_NE(too_wide.error().message.find("huge.png: it is"), std::string::npos);
@@ -161,7 +161,7 @@ TEST_F(FrameSources, VideoFileGivesEveryFrame) {
       {.patience = 20.0});
   ASSERT_TRUE(writer) << writer.error().message;
   for (;;) {
-    const auto frame = (*writer)->next(never);
+    const auto frame = (*writer)->next(kNever);
     ASSERT_TRUE(frame) << frame.error().message;
     if (!*frame) break;
   }
@@ -173,7 +173,7 @@ TEST_F(FrameSources, VideoFileGivesEveryFrame) {
   int frames = 0;
   double time = -1;
   for (;;) {
-    const auto frame = (*reader)->next(never);
+    const auto frame = (*reader)->next(kNever);
     ASSERT_TRUE(frame) << frame.error().message;
     if (!*frame) break;
     EXPECT_EQ((*frame)->width, 64);
@@ -191,10 +191,10 @@ TEST_F(FrameSources, LiveSourceDropsWhatIsNotAskedFor) {
                             {.patience = 20.0});
   ASSERT_TRUE(source) << source.error().message;
   ASSERT_TRUE((*source)->is_live());
-  const auto first = (*source)->next(never);
+  const auto first = (*source)->next(kNever);
   ASSERT_TRUE(first && *first) << first.error().message;
   std::this_thread::sleep_for(std::chrono::milliseconds(600));
-  const auto second = (*source)->next(never);
+  const auto second = (*source)->next(kNever);
   ASSERT_TRUE(second && *second);
   EXPECT_GT((*source)->dropped(), 10U);
   EXPECT_GT((*second)->time - (*first)->time, 0.3);  // the newest, not the one that came next
@@ -205,7 +205,7 @@ TEST_F(FrameSources, WaitingEndsWhenAskedOrInVain) {
       "gst:videotestsrc is-live=true ! valve drop=true ! video/x-raw,width=32,height=32";
   auto source = open_source(silent, {.patience = 0.6});
   ASSERT_TRUE(source) << source.error().message;
-  const auto none = (*source)->next(never);
+  const auto none = (*source)->next(kNever);
   ASSERT_FALSE(none);
   EXPECT_NE(none.error().message.find("no frame came for"), std::string::npos);
   auto stopped = open_source(silent, {.patience = 60.0});
