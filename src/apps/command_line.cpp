@@ -50,6 +50,7 @@ struct Entries {
   MenuOptions menu;
   SpeechOptions speech;
   SketchOptions sketch;
+  TrackOptions track;
   DesktopCommandOptions desktop;
   TouchOptions touch;
   std::string friction;
@@ -534,6 +535,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   add_menu(app, entries.menu);
   add_speech(app, entries.speech);
   add_sketch(app, entries.sketch);
+  add_track(app, entries.track);
   const CLI::App* const named = named_subcommand(app, 1, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
   if (argc > 1 && argv[1][0] != '-' && named == nullptr && !is_design_name(argv[1]))
@@ -591,6 +593,8 @@ CommandLine parse_command_line(int argc, char** argv) {
     command_line.speech = std::move(entries.speech);
   } else if (!entries.sketch.task.empty()) {
     command_line.sketch = std::move(entries.sketch);
+  } else if (!entries.track.task.empty()) {
+    command_line.track = std::move(entries.track);
   } else if (techniques.parsed()) {
     auto options = understood_techniques(entries);
     if (!options) return bad_usage(options.error().message, help);

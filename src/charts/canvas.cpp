@@ -321,6 +321,11 @@ std::string Canvas::svg() {
   return *page_->file;
 }
 
+void Canvas::next_page() {
+  assert(cairo_surface_get_type(page_->surface) == CAIRO_SURFACE_TYPE_PDF);
+  cairo_show_page(page_->cairo);
+}
+
 std::string Canvas::pdf() {
   assert(cairo_surface_get_type(page_->surface) == CAIRO_SURFACE_TYPE_PDF);
   cairo_surface_finish(page_->surface);

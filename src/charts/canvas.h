@@ -93,7 +93,9 @@ class Canvas {
   /// The drawing as an SVG file in which letters are shapes, so that it needs no font; a page unit is a
   /// pixel of CSS. Only for a page without pixels, which accepts no drawing afterwards.
   std::string svg();
-  /// The drawing as a PDF file of one page, the same bytes at any time. Only for a page made by of_pdf(),
+  /// Begins another page of the same size. Only for a page made by of_pdf().
+  void next_page();
+  /// The drawing as a PDF file, the same bytes at any time. Only for a page made by of_pdf(),
   /// which accepts no drawing afterwards.
   std::string pdf();
 
