@@ -66,7 +66,7 @@ drawing::Drawing sheet_of(std::size_t count) {
 
 drawing::StrokePointer moved_by(const drawing::Stroke& stroke, double x, double y) {
   drawing::Stroke moved = stroke;
-  moved.curve = sketch::transformed(stroke.curve, Eigen::Affine2d(Eigen::Translation2d(x, y)));
+  moved.curve = drawing::transformed(stroke.curve, Eigen::Affine2d(Eigen::Translation2d(x, y)));
   return std::make_shared<const drawing::Stroke>(std::move(moved));
 }
 
