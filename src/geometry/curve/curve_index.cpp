@@ -16,15 +16,15 @@ constexpr float kIndexRounding = 2e-6F;  // of all coordinates: more than single
 // Pieces leave their chords by some tenth of their length, so that the chord tells nearly all. More of them
 // make the tree deeper and fill the cache for nothing.
 constexpr double kBentPiece = 0.1;
-constexpr int kLeastPieces = 2, kMostPieces = 16;
+constexpr int kLeastPiecesOfCurve = 2, kMostPiecesOfCurve = 16;
 
 int pieces_of(const CubicBezier& curve) {
   const double bend = std::max(curve.second_derivative(0.0).norm(), curve.second_derivative(1.0).norm());
   double way = 0.0;
   for (std::size_t i = 0; i < 3; ++i) way += (curve.points[i + 1] - curve.points[i]).norm();
   if (!(way > 0.0)) return 1;
-  return int(
-      std::clamp(std::ceil(bend / (8.0 * kBentPiece * way)), double(kLeastPieces), double(kMostPieces)));
+  return int(std::clamp(std::ceil(bend / (8.0 * kBentPiece * way)), double(kLeastPiecesOfCurve),
+                        double(kMostPiecesOfCurve)));
 }
 
 double distance_to_chord(const Vector2& point, const Vector2& from, const Vector2& way) {

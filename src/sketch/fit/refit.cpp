@@ -151,8 +151,8 @@ std::vector<CubicBezier> curves_of(const std::vector<CubicFit>& fits) {
 }
 
 /// The cubics without breaks, and as few as it takes; empty if that fails.
-std::vector<CubicBezier> smoothed(const std::vector<Vector2>& points, const std::vector<CubicBezier>& start,
-                                  double within) {
+std::vector<CubicBezier> smooth_refit(const std::vector<Vector2>& points,
+                                      const std::vector<CubicBezier>& start, double within) {
   Refit refit(points, SmoothSpline::through(start), within);
   if (!refit.cut_until_near()) return {};
   refit.join_where_possible();
@@ -192,13 +192,13 @@ std::vector<CubicBezier> few_cubics(const StrokePath& path, std::size_t first, s
   const std::vector<Vector2> points = close_points(path, first, last, apart);
   // Beginning with too few leaves the fewest, mostly; where it does not, beginning with enough may.
   std::vector<CubicBezier> best =
-      smoothed(points, curves_of(fewest_breaking_cubics(path, first, last, kTooFew * within)), within);
+      smooth_refit(points, curves_of(fewest_breaking_cubics(path, first, last, kTooFew * within)), within);
   if (best.empty() || best.size() > breaking.size()) {
-    const std::vector<CubicBezier> other = smoothed(points, breaking, within);
+    const std::vector<CubicBezier> other = smooth_refit(points, breaking, within);
     if (best.empty() || (!other.empty() && other.size() < best.size())) best = other;
   }
   // Sharp turns that no corner was made for may need cubics that break, if the pen's own do not help.
-  if (best.empty()) best = smoothed(points, segments_while_drawn(path, first, last), within);
+  if (best.empty()) best = smooth_refit(points, segments_while_drawn(path, first, last), within);
   return best.empty() ? breaking : best;
 }
 

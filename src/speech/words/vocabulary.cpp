@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
 #include "base/near_names.h"
 #include "base/parse_number.h"
+#include "interaction/operations/arguments.h"
 #include "interaction/operations/looks/colour_names.h"
 #include "interaction/operations/operation.h"
 #include "interaction/operations/toml_value.h"
@@ -68,6 +70,7 @@ class VocabularyReader {
     add_live_rules();
     for (const auto& [rule, place] : rule_places_) check_rule(rule, place);
     for (const auto& [command, place] : command_places_) check_command(*to_.command(command), place);
+    check_tables();
     if (!problems_.none()) return base::fail(problems_.text(source));
     return {};
   }
@@ -131,6 +134,7 @@ class VocabularyReader {
     if (!is(table.value, Kind::Table, "'words." + table.key + "'", "a table of words and meanings")) return;
     if (!to_.tables.contains(table.key) && to_.grammar.find(table.key) != nullptr)
       return problems_.add(table.place, fmt::format("'words.{0}': <{0}> is a rule, no table.", table.key));
+    table_places_.emplace_back(table.key, table.place);
     auto& words = to_.tables[table.key];
     for (const TomlMember& member : table.value.members) {
       const std::size_t bar = member.key.find('|');
@@ -162,6 +166,7 @@ class VocabularyReader {
 
   void read_list(const TomlMember& list) {
     if (!is(list.value, Kind::Array, "'lists." + list.key + "'", "a list of words")) return;
+    table_places_.emplace_back(list.key, list.place);
     auto& words = to_.tables[list.key];
     for (const TomlNode& node : list.value.elements)
       if (is(node, Kind::String, "each of 'lists." + list.key + "'", "a word"))
@@ -190,6 +195,7 @@ class VocabularyReader {
 
   void read_command(const TomlNode& table) {
     Command command;
+    with_places_.clear();
     Pattern forms{Pattern::Kind::Choice}, often{Pattern::Kind::Choice};
     for (const TomlMember& member : table.members) read_command_key(member, command, forms, often);
     if (command.name.empty() || forms.parts.empty() || command.does.empty() == command.operation.empty()) {
@@ -208,6 +214,7 @@ class VocabularyReader {
       rule_places_.emplace_back(command.usual, table.place);
     }
     command_places_.emplace_back(command.name, table.place);
+    places_of_with_[command.name] = std::move(with_places_);
     const auto known = std::ranges::find(to_.commands, command.name, &Command::name);
     if (known == to_.commands.end())
       to_.commands.push_back(std::move(command));
@@ -225,6 +232,7 @@ class VocabularyReader {
     } else if (key == "with") {
       if (!is(member.value, Kind::Table, "'with'", "a table of parameters")) return;
       command.with = *interaction::value_from_toml(member.value).fields();
+      for (const TomlMember& parameter : member.value.members) with_places_[parameter.key] = parameter.place;
     } else if (std::string* text = key == "name"   ? &command.name
                                    : key == "help" ? &command.help
                                    : key == "does" ? &command.does
@@ -283,11 +291,51 @@ class VocabularyReader {
                                          parameter.name, parameter.meaning));
     }
     for (const auto& [name, value] : command.with) {
-      if (std::ranges::find(names, name) == names.end())
-        problems_.add(place, fmt::format("'{}': {} has no parameter '{}'{}", command.name, operation.name,
+      const Place there = place_of_with(command.name, name, place);
+      const auto parameter = std::ranges::find(operation.parameters, name, &Parameter::name);
+      if (parameter == operation.parameters.end())
+        problems_.add(there, fmt::format("'{}': {} has no parameter '{}'{}", command.name, operation.name,
                                          name, base::suggestion(name, names)));
-      if (value.text() && value.text()->starts_with('<')) check_slot(command, *value.text(), place);
+      else if (value.text() && value.text()->starts_with('<'))
+        check_slot(command, *value.text(), there);
+      else
+        check_value(command, *parameter, value, there);
     }
+  }
+
+  Place place_of_with(const std::string& command, const std::string& name, Place otherwise) const {
+    const auto& places = places_of_with_.at(command);
+    const auto found = places.find(name);
+    return found == places.end() ? otherwise : found->second;
+  }
+
+  /// Can the parameter have a value that is always the same? Names of things are known in a design only.
+  void check_value(const Command& command, Parameter parameter, const Value& value, Place place) {
+    using enum interaction::ParameterKind;
+    if (parameter.kind == Object || parameter.kind == Objects || parameter.kind == Picture) return;
+    static const world::World kNoWorld;
+    parameter.required = false;
+    const std::vector<Parameter> alone = {std::move(parameter)};
+    const Value::Fields fields = {{alone.front().name, value}};
+    if (const auto good = interaction::Arguments::check(alone, fields, kNoWorld); !good)
+      problems_.add(place, fmt::format("'{}': {}.", command.name, good.error().message));
+  }
+
+  /// Words that no sentence has were meant for another table.
+  void check_tables() {
+    if (to_.commands.empty()) return;  // words alone, for the sentences of another file
+    std::set<std::string> used(live_rules().begin(), live_rules().end());
+    for (const auto& [rule, pattern] : to_.grammar.rules()) add_rules_in(pattern, used);
+    std::vector<std::string> names(used.begin(), used.end());
+    for (const auto& [table, place] : table_places_)
+      if (!used.contains(table) && !used.contains(table + "s"))
+        problems_.add(place,
+                      fmt::format("no sentence has a word of <{}>{}", table, base::suggestion(table, names)));
+  }
+
+  static void add_rules_in(const Pattern& pattern, std::set<std::string>& rules) {
+    if (pattern.kind == Pattern::Kind::Rule) rules.insert(pattern.text);
+    for (const Pattern& part : pattern.parts) add_rules_in(part, rules);
   }
 
   void check_slot(const Command& command, const std::string& slot, Place place) {
@@ -299,7 +347,9 @@ class VocabularyReader {
 
   Vocabulary& to_;
   io::Problems problems_;
-  std::vector<std::pair<std::string, Place>> rule_places_, command_places_;
+  std::vector<std::pair<std::string, Place>> rule_places_, command_places_, table_places_;
+  std::map<std::string, Place> with_places_;  // of the command at hand, by parameter
+  std::map<std::string, std::map<std::string, Place>> places_of_with_;  // of each command
 };
 
 }  // namespace

@@ -92,6 +92,10 @@ with = { objects = "<objects>", stiffness = 300 }
   EXPECT_EQ(vocabulary.table("colour").back().words, "teal");
   EXPECT_NE(vocabulary.command("soften"), nullptr);
   EXPECT_FALSE(vocabulary.grammar.parse("shapes", std::vector<std::string>{"tiles"}).empty());
+  // A table of one's own is good where a sentence of one's own has its words.
+  EXPECT_EQ(problem_of("[lists]\npets = [\"cat\"]\n[[command]]\nname = \"pet\"\nsay = [\"pet the <pets>\"]\n"
+                       "does = \"stop\"\n"),
+            "");
 }
 
 TEST(Vocabulary, ProblemsNameTheirLine) {
@@ -114,6 +118,15 @@ TEST(Vocabulary, ProblemsNameTheirLine) {
         std::pair{
             "[[command]]\nname = \"x\"\nsay = [\"x\"]\nop = \"delete\"\nwith = { objects = \"<hand>\" }\n",
             "<hand> has no meaning"},
+        std::pair{"[words.colur]\nteal = \"#008080\"\n",
+                  "own.toml:1:8: no sentence has a word of <colur>; did you mean 'colour'"},
+        std::pair{"[lists]\npets = [\"cat\"]\n", "own.toml:2:1: no sentence has a word of <pets>"},
+        std::pair{"[[command]]\nname = \"x\"\nsay = [\"x <objects>\"]\nop = \"feel\"\n"
+                  "with = { objects = \"<objects>\", stiffness = \"hard\" }\n",
+                  "own.toml:5:"},
+        std::pair{"[[command]]\nname = \"x\"\nsay = [\"x <objects>\"]\nop = \"feel\"\n"
+                  "with = { objects = \"<objects>\", stiffness = -3 }\n",
+                  "stiffness"},
         std::pair{"[[command]]\nname = \"x\"\nsay = [\"x\"]\ndoes = \"dance\"\n", "no act 'dance'"}}) {
     const std::string problem = problem_of(text);
     EXPECT_NE(problem.find(told), std::string::npos) << text << "\n" << problem;
