@@ -1,6 +1,7 @@
 #include "fonts/outline_union.h"
 
 #include <algorithm>
+#include <array>
 #include <clipper.hpp>
 
 namespace icome::fonts {
@@ -36,7 +37,43 @@ std::vector<geometry::Outline> covered_by(const Rings& rings, ClipperLib::PolyFi
   return pieces;
 }
 
+using RingEdge = std::array<Vector2, 2>;  // from left to right
+
+/// The edges from left to right by their left ends.
+std::vector<RingEdge> edges_of(const Rings& rings) {
+  std::vector<RingEdge> edges;
+  for (const std::vector<Vector2>& ring : rings)
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vector2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      edges.push_back(a.x() <= b.x() ? RingEdge{a, b} : RingEdge{b, a});
+    }
+  std::ranges::sort(edges, {}, [](const RingEdge& edge) { return edge[0].x(); });
+  return edges;
+}
+
+double side(const RingEdge& edge, const Vector2& at) {
+  const Vector2 way = edge[1] - edge[0], to = at - edge[0];
+  return way.x() * to.y() - way.y() * to.x();
+}
+
+bool cross(const RingEdge& one, const RingEdge& other) {
+  return side(one, other[0]) * side(one, other[1]) < 0.0 && side(other, one[0]) * side(other, one[1]) < 0.0;
+}
+
 }  // namespace
+
+bool cross_often(const Rings& rings, std::size_t most) {
+  constexpr std::size_t kMostLooks = 100'000'000;
+  const std::vector<RingEdge> edges = edges_of(rings);
+  std::size_t looks = 0, crossings = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    for (std::size_t k = i + 1; k < edges.size() && edges[k][0].x() <= edges[i][1].x(); ++k) {
+      if (++looks > kMostLooks) return true;
+      if (cross(edges[i], edges[k]) && ++crossings > most) return true;
+    }
+  }
+  return false;
+}
 
 std::vector<geometry::Outline> united(const Rings& rings) {
   return covered_by(rings, ClipperLib::pftNonZero);

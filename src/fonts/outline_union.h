@@ -18,4 +18,9 @@ std::vector<geometry::Outline> united(const Rings& rings);
 /// united().
 std::vector<geometry::Outline> covered_oddly(const Rings& rings);
 
+/// Do the edges of rings cross more than `most` times? Both functions above take time by more than the square
+/// of that: 12,000 crossings take half a second. What would take too long to find out counts as often.
+bool cross_often(const Rings& rings, std::size_t most);
+inline constexpr std::size_t kMostCrossings = 12'000;
+
 }  // namespace icome::fonts

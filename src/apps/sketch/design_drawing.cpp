@@ -30,11 +30,11 @@ base::Result<DesignDrawing> read_design_drawing(const std::filesystem::path& pat
   auto design = files::read_design(path, {});
   if (!design) return tl::unexpected(design.error());
   std::vector<std::string> names;
-  std::map<world::GeometryId, std::size_t> fitting;
+  std::map<world::GeometryId, std::string> fitting;  // with the first of the clones that have it
   for (const auto& [id, it] : design->world.objects()) {
     if (!it.geometry || !drawing::drawing_in(*design->world.find(it.geometry)->shape)) continue;
     names.push_back(it.name);
-    if (object.empty() || it.name == object) ++fitting[it.geometry];
+    if (object.empty() || it.name == object) fitting.try_emplace(it.geometry, it.name);
   }
   if (fitting.size() == 1) return DesignDrawing{std::move(*design), fitting.begin()->first};
   const std::string name = path.string();
@@ -42,9 +42,11 @@ base::Result<DesignDrawing> read_design_drawing(const std::filesystem::path& pat
   if (fitting.empty())
     return base::fail(
         fmt::format("{}: there is no drawing \"{}\"{}", name, object, base::suggestion(object, names)));
+  std::vector<std::string> choices;
+  for (const auto& [id, choice] : fitting) choices.push_back(choice);
   return base::fail(fmt::format("{}: there are {} drawings{}; say which with --object: \"{}\"", name,
                                 fitting.size(), object.empty() ? "" : " of that name",
-                                fmt::join(names, "\", \"")));
+                                fmt::join(choices, "\", \"")));
 }
 
 }  // namespace icome::apps

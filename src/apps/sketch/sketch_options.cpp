@@ -70,7 +70,8 @@ constexpr const char* kEditNotes =
     "tools, too. A line that is wrong ends the run with its number, and nothing is written.\n"
     "\n"
     "JSON: {in, out (null when nothing was written), operations (how many were done), errors: [{line, op,\n"
-    "message}], notes: [{line, op, text}], layers, strokes, segments, hash (equal for equal drawings)}.";
+    "message}], notes: [{line, op, text}], layers, strokes, segments, hash (equal for\n"
+    "drawings that are equal, numbers of strokes and layers too, which saving may change)}.";
 
 constexpr const char* kModelNotes =
     "Examples:\n"

@@ -92,7 +92,7 @@ int run_track_synth(const TrackOptions& options) {
   truth.rate = made_of->rate;
   for (const cutout::KnownTriangle& triangle : made_of->known.triangles) truth.ids.push_back(triangle.id);
   for (int i = 0; i < made_of->frames; ++i) {
-    if (interrupted()) return kTrackInterrupted;
+    if (interrupted()) break;
     status.progress("Making", double(i), double(made_of->frames), "frames");
     const auto made = options.board ? table.make_board(i) : table.make(i);
     if (const auto written = write_frame(made, options.synth, i); !written)
@@ -112,6 +112,11 @@ int run_track_synth(const TrackOptions& options) {
   if (const auto written = cutout::write_table_view(table.view(), options.synth / view_name); !written)
     return track_failed(written.error());
   const std::string folder = options.synth.string();
+  if (interrupted()) {
+    tell(fmt::format("{}: {} of {} frames were made; their truth is written", folder, truth.frames.size(),
+                     made_of->frames));
+    return kTrackInterrupted;
+  }
   if (options.board)
     return print_answer(
         fmt::format("{0}: {1} pictures of the chessboard; icome track {0} --calibrate view.toml\n", folder,

@@ -151,9 +151,25 @@ class TrackRun {
                       "calibrate anew, or ask for that --size",
                       options_.source, frame.width, frame.height, view->frame_width(), view->frame_height()));
     view_.emplace(*view);
+    tell_of_small_triangles();
     bundles_.emplace(view_->table_width(), view_->table_height(), "icome");
     make_tracker();
     return {};
+  }
+
+  /// Triangles that are too small in the frame are not found, however clear they are.
+  void tell_of_small_triangles() const {
+    constexpr double kLeastPixels = 20;
+    const base::Vector2 middle(0.5 * view_->table_width(), 0.5 * view_->table_height());
+    for (const cutout::KnownTriangle& triangle : known_.triangles) {
+      const base::Vector2 end = middle + base::Vector2(0, triangle.height);
+      const double pixels = (view_->to_pixel(end) - view_->to_pixel(middle)).norm();
+      if (pixels < kLeastPixels)
+        tell(fmt::format(
+            "{}: it is {:.0f} pixels high in this view, and below {:.0f} it may not be found; bring "
+            "the camera nearer, or ask for a larger --size",
+            triangle.id, pixels, kLeastPixels));
+    }
   }
 
   void make_tracker() {

@@ -53,6 +53,7 @@ base::Result<Frame> read_jpeg(std::string_view bytes, const std::string& name) {
   if (tjDecompressHeader3(jpeg.get(), data, bytes.size(), &frame.width, &frame.height, &subsampling,
                           &colours) != 0)
     return failed("it is no whole JPEG file");
+  if (frame.width < 1 || frame.height < 1) return failed("the JPEG file is damaged or cut off");
   if (const auto able = check_sides(frame.width, frame.height, name); !able)
     return tl::unexpected(able.error());
   frame.bgr.resize(3 * std::size_t(frame.width) * std::size_t(frame.height));

@@ -303,8 +303,11 @@ base::Result<std::unique_ptr<FrameSource>> open_video(const std::string& address
   if (kind == VideoKind::Camera)
     if (const auto there = check_camera(camera_path(address)); !there) return tl::unexpected(there.error());
   if (const auto started = start_gstreamer(); !started) return tl::unexpected(started.error());
-  const std::string words = pipeline_words(kind, address, settings) +
-                            " ! videoconvert ! video/x-raw,format=BGR ! appsink name=icomesink";
+  // Colours that a camera keeps at half the size are to be interpolated. The quick ways of videoconvert
+  // repeat them, which makes steps of edges; steps of 2 in the values are what it takes none of them for.
+  const std::string words =
+      pipeline_words(kind, address, settings) +
+      " ! videoconvert dither=none dither-quantization=2 ! video/x-raw,format=BGR ! appsink name=icomesink";
   GError* error = nullptr;
   Element pipeline(gst_parse_launch(words.c_str(), &error));
   if (error != nullptr) {

@@ -106,9 +106,10 @@ class LoopAreas {
       rings_.push_back(ring_of(loop, tolerance));
       boxes_.push_back(box_of(rings_.back()));
     }
+    fits_ = !fonts::cross_often(rings_, fonts::kMostCrossings);
   }
 
-  /// False where the rings have too many corners: then there are none.
+  /// False where the rings have too many corners, or cross too often.
   bool fits() const { return fits_; }
   double signed_area(std::size_t i) const { return ring_area(rings_[i]); }
 

@@ -13,7 +13,7 @@ enum class FillRule { NonZero, EvenOdd };
 enum class FillLikeness {
   Exact,
   StraightPieces,  ///< off by the tolerance at most
-  NonZeroInstead,  ///< there are too many lines for the even-odd rule
+  NonZeroInstead,  ///< there are too many lines for the even-odd rule, or they cross too often
 };
 
 /// A curve without width that fills an area, and those of the lines given that it fills.

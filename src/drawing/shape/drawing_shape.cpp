@@ -137,7 +137,9 @@ base::Result<std::shared_ptr<const world::MeshGeometry>> DrawingShape::made_tria
 }
 
 base::Result<world::FlatCurves> DrawingShape::flat_curves(double tolerance) const {
-  return world::FlatCurves{enclosed_areas(drawing_, tolerance), open_lines(drawing_, tolerance)};
+  auto areas = enclosed_areas(drawing_, tolerance);
+  if (!areas) return tl::unexpected(areas.error());
+  return world::FlatCurves{std::move(*areas), open_lines(drawing_, tolerance)};
 }
 
 base::Result<std::string> DrawingShape::write() const { return drawing_bytes(drawing_, body_); }

@@ -29,6 +29,8 @@ Bounds2 box_of(const Stroke& stroke) {
 }
 
 base::Result<geometry::TriangleMesh> solid_of_rings(const fonts::Rings& rings, const PaperGrid& grid) {
+  if (fonts::cross_often(rings, fonts::kMostCrossings))
+    return base::fail(fmt::format("it crosses itself more than {} times", fonts::kMostCrossings));
   const std::vector<geometry::Outline> pieces = fonts::united(rings);
   if (pieces.empty()) return geometry::TriangleMesh{};
   auto mesh = geometry::solid_of_outlines(pieces, 1.0);
@@ -93,12 +95,14 @@ base::Result<std::vector<Ridge>> ridges_of(const Drawing& drawing, const RidgeHe
   return ridges;
 }
 
-std::vector<geometry::Outline> enclosed_areas(const Drawing& drawing, double tolerance) {
+base::Result<std::vector<geometry::Outline>> enclosed_areas(const Drawing& drawing, double tolerance) {
   const PaperGrid grid(drawing.size, drawing.bounds());
   fonts::Rings rings;
   for_each_seen(drawing, [&](const StrokePointer& stroke) {
     if (stroke->curve.closed) rings.push_back(grid.line_along(stroke->curve.segments, true, tolerance));
   });
+  if (fonts::cross_often(rings, fonts::kMostCrossings))
+    return base::fail(fmt::format("its closed curves cross more than {} times", fonts::kMostCrossings));
   std::vector<geometry::Outline> areas;
   for (geometry::Outline& piece : fonts::united(rings)) areas.push_back(in_design(std::move(piece), grid));
   return areas;

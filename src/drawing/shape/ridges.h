@@ -52,8 +52,8 @@ base::Result<std::vector<Ridge>> ridges_of(const Drawing& drawing, const RidgeHe
                                            StrokeRidges& known);
 
 /// The areas that the closed curves of all strokes that can be seen enclose together, in the frame of ridges
-/// (m), off by `tolerance` (m, > 0) at most.
-std::vector<geometry::Outline> enclosed_areas(const Drawing& drawing, double tolerance);
+/// (m), off by `tolerance` (m, > 0) at most. Fails for curves that cross without an end.
+base::Result<std::vector<geometry::Outline>> enclosed_areas(const Drawing& drawing, double tolerance);
 /// The open curves that can be seen, as points on them, in the same frame.
 std::vector<std::vector<Vector2>> open_lines(const Drawing& drawing, double tolerance);
 

@@ -480,8 +480,10 @@ void SvgReader::read_root_frame(SvgContext& context) {
     if (length && is_length(*length))
       size[i] = *length;
     else
-      notes_.tell(root, fmt::format("the {} {} is no length above 0 and up to {:g} m, and is left out",
-                                    side.name(), quoted_value(side.value()), kFarthestSvgPoint));
+      notes_.tell(
+          root,
+          fmt::format("the {} {} is no length in a unit of SVG above 0 and up to {:g} m, and is left out",
+                      side.name(), quoted_value(side.value()), kFarthestSvgPoint));
   }
   const SvgViewport viewport = viewport_of(root, size);
   metres_from_root_ = Eigen::Scaling(kMetresOfSvgUnit) * viewport.outer_from_inner;

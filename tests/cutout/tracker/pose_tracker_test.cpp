@@ -220,6 +220,76 @@ TEST(PoseTracker, FindsTrianglesInFallingLight) {
   expect_all_near(make_pose_tracker(known, view, false)->see(frame.view(), 0).value(), truth, 0.3, 0.4);
 }
 
+/// The frame as cameras and video files keep it (4:2:0): brightness of each pixel, colour of each four, which
+/// is repeated or, to the nearest quarters, interpolated.
+Frame with_halved_colours(const Frame& frame, bool interpolated) {
+  const auto at = [&](int x, int y, int c) {
+    x = std::clamp(x, 0, frame.width - 1), y = std::clamp(y, 0, frame.height - 1);
+    return double(
+        frame.bgr[3 * (std::size_t(y) * std::size_t(frame.width) + std::size_t(x)) + std::size_t(c)]);
+  };
+  const auto brightness = [&](int x, int y) {
+    return 0.114 * at(x, y, 0) + 0.587 * at(x, y, 1) + 0.299 * at(x, y, 2);
+  };
+  const auto of_four = [&](int i, int j, int c) {
+    double sum = 0;
+    for (int k = 0; k < 4; ++k) {
+      const int x = std::clamp(2 * i + k % 2, 0, frame.width - 1),
+                y = std::clamp(2 * j + k / 2, 0, frame.height - 1);
+      sum += at(x, y, c) - brightness(x, y);
+    }
+    return sum / 4;
+  };
+  Frame halved = frame;
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      const int i = x / 2, j = y / 2, di = x % 2 ? 1 : -1, dj = y % 2 ? 1 : -1;
+      double blue = 0, red = 0;
+      for (const int c : {0, 2}) {
+        double value = of_four(i, j, c);
+        if (interpolated)
+          value = (9 * value + 3 * of_four(i + di, j, c) + 3 * of_four(i, j + dj, c) +
+                   of_four(i + di, j + dj, c)) /
+                  16;
+        (c == 0 ? blue : red) = value;
+      }
+      const double grey = brightness(x, y);
+      const double green = -(0.114 * blue + 0.299 * red) / 0.587;
+      const double channels[] = {grey + blue, grey + green, grey + red};
+      for (std::size_t c = 0; c < 3; ++c)
+        halved.bgr[3 * (std::size_t(y) * std::size_t(frame.width) + std::size_t(x)) + c] =
+            std::uint8_t(std::lround(std::clamp(channels[c], 0.0, 255.0)));
+    }
+  return halved;
+}
+
+TEST(PoseTracker, FindsTrianglesWhoseColoursAreKeptAtHalfTheSize) {
+  const TableView view = TableView::whole_frame(640, 480, 640, 480);
+  const KnownTriangles known = drawn_triangles(8);
+  for (const bool interpolated : {true, false}) {
+    base::Random random(41);
+    std::size_t found = 0;
+    double squares = 0;
+    constexpr int kFrames = 8;
+    for (int i = 0; i < kFrames; ++i) {
+      const std::vector<TrianglePose> truth = scattered(known, view, random);
+      DrawnTable table(view);
+      for (std::size_t t = 0; t < truth.size(); ++t) table.triangle(known.triangles[t], truth[t]);
+      const Frame frame = with_halved_colours(table.frame(1, std::uint64_t(i)), interpolated);
+      const auto seen = make_pose_tracker(known, view, false)->see(frame.view(), 0);
+      ASSERT_TRUE(seen);
+      for (const Sighting& sighting : *seen) {
+        const double off = (sighting.pose.centroid - truth[sighting.triangle].centroid).norm();
+        EXPECT_LT(off, 1.0);
+        squares += off * off;
+        ++found;
+      }
+    }
+    EXPECT_GE(found, std::size_t(0.97 * kFrames * 8)) << interpolated;
+    EXPECT_LT(std::sqrt(squares / double(found)), 0.25) << interpolated;
+  }
+}
+
 TEST(PoseTracker, FollowsTrianglesThatMove) {
   const TableView view = plain_view();
   const KnownTriangles known = drawn_triangles(3);

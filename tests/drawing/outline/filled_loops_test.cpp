@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "base/random.h"
 
@@ -128,6 +129,23 @@ TEST(FilledLoops, OfVeryManyLinesEndInTime) {
   for (int i = 0; i < 30000; ++i) dots.push_back(circle_about({0.01 * i, 0.0}, 0.001, i % 2 == 0));
   EXPECT_EQ(filled_loops(dots, FillRule::NonZero, 0.0, kLoopTolerance).size(), 1U);
   EXPECT_EQ(filled_loops(dots, FillRule::EvenOdd, 0.0, 1e-7).at(0).likeness, FillLikeness::NonZeroInstead);
+}
+
+TEST(FilledLoops, LinesThatCrossWithoutAnEndGetTheOtherRuleInTime) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(0.0, 0.2);
+  Curve scribble;
+  scribble.closed = true;
+  const Vector2 first(place(random), place(random));
+  Vector2 at = first;
+  for (int i = 0; i < 800; ++i) {
+    const Vector2 next = i == 799 ? first : Vector2(place(random), place(random));
+    scribble.segments.push_back(CubicBezier::line(at, next));
+    at = next;
+  }
+  const auto filled = filled_loops(std::vector{scribble}, FillRule::EvenOdd, 0.0, 1e-5);
+  ASSERT_EQ(filled.size(), 1U);
+  EXPECT_EQ(filled[0].likeness, FillLikeness::NonZeroInstead);
 }
 
 }  // namespace

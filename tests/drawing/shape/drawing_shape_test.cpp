@@ -204,6 +204,22 @@ TEST(DrawingShape, CurvesToSweepAreAreasWithTheirHolesAndLines) {
   EXPECT_NEAR((line->lines[0].back() - Vector2(60e-3 - 0.1485, 0.105 - 30e-3)).norm(), 0.0, 1e-8);
 }
 
+TEST(DrawingShape, AStrokeThatCrossesItselfWithoutAnEndIsRefusedInTime) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(0.01, 0.2);
+  Curve scribble;
+  Vector2 at(0.1, 0.1);
+  for (int i = 0; i < 800; ++i) {
+    const Vector2 next(place(random), place(random));
+    scribble.segments.push_back(CubicBezier::line(at, next));
+    at = next;
+  }
+  Drawing drawing = drawing_with({scribble});
+  const auto made = shape_with(drawing)->triangles(0.001);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().message, "stroke 2: it crosses itself more than 12000 times");
+}
+
 // ---- Edits ----------------------------------------------------------------------------------------------
 
 /// An edit at random that suits the drawing.

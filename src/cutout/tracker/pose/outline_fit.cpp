@@ -199,7 +199,7 @@ void OutlineFit::measure(const TriangleShape& shape, const Placed& placed, int w
     const Vector2 middle = (corners[edge] + corners[(edge + 1) % 3]) / 2;
     const double wide = std::max(0.0, -normal.dot(rectifier_->view().wall_at(middle))) / pixel_;
     levels[edge] = float(0.5 - 0.25 * std::clamp((wide - 0.5) / 1.5, 0.0, 1.0));
-    walls_[edge] = wide > 0 ? pixel_ * (wide - from_foot(wide, levels[edge])) : 0.0;
+    walls_[edge] = (wide > 0 ? pixel_ * (wide - from_foot(wide, levels[edge])) : 0.0) + pixel_ * spread_;
   }
   std::array<Vector2, 3> pixels;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -284,7 +284,7 @@ void OutlineFit::judge(const TriangleShape& shape, const Placed& placed, Outline
   const double cosine = std::cos(placed.turn), sine = std::sin(placed.turn);
   std::array<Vector2, 3> normals;
   for (std::size_t i = 0; i < 3; ++i) normals[i] = turned(shape.normals[i], cosine, sine);
-  double squares = 0;
+  double squares = 0, sum = 0;
   for (const Sample& sample : samples_) {
     const std::size_t edge = std::size_t(sample.edge);
     ++evidence.places;
@@ -300,8 +300,10 @@ void OutlineFit::judge(const TriangleShape& shape, const Placed& placed, Outline
     ++evidence.supported;
     ++evidence.supported_of[edge];
     squares += off * off;
+    sum += off;
     supported_pixels_.push_back(sample.pixel);
   }
+  evidence.inwards = evidence.supported ? sum / evidence.supported / pixel_ : 0.0;
   evidence.rms = evidence.supported ? std::sqrt(squares / evidence.supported) / pixel_ : 0.0;
 }
 

@@ -17,6 +17,7 @@ struct OutlineEvidence {
   int places = 0, supported = 0, contradicted = 0, blue_beyond = 0;
   std::array<int, 3> places_of{}, supported_of{};  ///< the same by edges
   double rms = 0;                                  ///< of supported places from the outline, pixels
+  double inwards = 0;  ///< mean of the same with their sign, pixels: above 0 they lie within
 
   double support() const { return places ? double(supported) / places : 0.0; }
   double contradiction() const { return places ? double(contradicted) / places : 0.0; }
@@ -62,6 +63,11 @@ class OutlineFit {
   OutlineFitted fit(const TriangleShape& shape, const Placed& from, double window, const PosePrior& prior,
                     std::span<const Neighbour> neighbours = {});
 
+  /// Pixels by which outlines are seen farther out than triangles are: what colours that a camera keeps at
+  /// half the size (4:2:0), a list that is not exact, or unusual blur do to all of them alike. 0 at first.
+  double spread() const { return spread_; }
+  void set_spread(double pixels) { spread_ = pixels; }
+
   /// Pixels of the supported places of the last fit().
   const std::vector<Vector2>& supported_pixels() const { return supported_pixels_; }
 
@@ -99,6 +105,7 @@ class OutlineFit {
   const Rectifier* rectifier_;
   const ColourClasses* colours_;
   FrameView frame_;
+  double spread_ = 0;              // pixels
   double pixel_ = 1;               // mm, about the triangle at hand
   std::array<double, 3> walls_{};  // mm that each edge is seen farther out, as the wall below it is blue too
   std::vector<Sample> samples_;

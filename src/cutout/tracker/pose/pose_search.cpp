@@ -17,16 +17,21 @@ constexpr double kMostAgainst = 0.1;
 constexpr double kMostBeyond = 0.1;          // blue beyond that no other triangle explains
 constexpr double kMostBeyondAtFirst = 0.35;  // before the others are known
 
-constexpr double kMostLoose = 0.45;       // pixels that edges lie about the outline, root of the mean square
-constexpr double kCertainSupport = 0.85;  // of a triangle that is seen all around
-constexpr double kCertainRms = 0.3;       // pixels
-constexpr double kAlikeAngle = 0.07;      // rad
-constexpr double kAlikeReach = 0.1;       // share of it
-constexpr double kNearlyAsGood = 0.75;    // of a score, from which another explanation casts doubt
-constexpr double kSharedPlaces = 0.5;     // share of places by which two candidates explain the same edges
-constexpr double kSeenShare = 0.12;       // of an edge that count as a sight of it
-constexpr double kLeastOfTwo = 0.3;       // share of the outline, of two edges alone
-constexpr int kSeenPlaces = 3;            // of an edge that count as a sight of it
+constexpr double kMostLoose = 0.45;        // pixels that edges lie about the outline, root of the mean square
+constexpr double kMostStepped = 0.7;       // likewise, of a triangle that is seen all around: colours kept at
+                                           // half the size make steps of edges
+constexpr double kSpreadSupport = 0.6;     // of a triangle that tells how far outlines spread
+constexpr double kLeastSpreadStep = 0.25;  // pixels, below which it stays as it is
+constexpr double kMostSpread = 1.5;        // pixels
+constexpr double kCertainSupport = 0.85;   // of a triangle that is seen all around
+constexpr double kCertainRms = 0.3;        // pixels
+constexpr double kAlikeAngle = 0.07;       // rad
+constexpr double kAlikeReach = 0.1;        // share of it
+constexpr double kNearlyAsGood = 0.75;     // of a score, from which another explanation casts doubt
+constexpr double kSharedPlaces = 0.5;      // share of places by which two candidates explain the same edges
+constexpr double kSeenShare = 0.12;        // of an edge that count as a sight of it
+constexpr double kLeastOfTwo = 0.3;        // share of the outline, of two edges alone
+constexpr int kSeenPlaces = 3;             // of an edge that count as a sight of it
 
 /// Pixels of outline that speak for a candidate, less those against it.
 double score_of(const OutlineEvidence& evidence, double circumference) {
@@ -49,9 +54,18 @@ bool is_alike(const TriangleShape& a, const TriangleShape& b) {
          std::abs(a.reach - b.reach) < kAlikeReach * a.reach;
 }
 
+/// Are the edges of a triangle seen, all as far within it or outside of it?
+bool tells_spread(const OutlineEvidence& evidence) {
+  const double about =
+      std::sqrt(std::max(0.0, evidence.rms * evidence.rms - evidence.inwards * evidence.inwards));
+  return evidence.support() >= kSpreadSupport && is_whole(evidence) && about <= kMostLoose &&
+         evidence.contradiction() <= kMostAgainst && evidence.beyond() <= kMostBeyondAtFirst;
+}
+
 bool may_be(const OutlineEvidence& evidence) {
+  const bool is_certain = evidence.support() >= kCertainSupport && is_whole(evidence);
   return evidence.support() >= kLeastSupport && evidence.contradiction() <= kMostAgainst &&
-         evidence.edges_with(kSeenPlaces) >= 2 && evidence.rms <= kMostLoose;
+         evidence.edges_with(kSeenPlaces) >= 2 && evidence.rms <= (is_certain ? kMostStepped : kMostLoose);
 }
 
 }  // namespace
@@ -100,6 +114,7 @@ void PoseSearch::choose_hypotheses(const OutlineFit& fit) {
 
 void PoseSearch::fit_hypotheses(OutlineFit& fit, std::span<const Neighbour> neighbours) {
   candidate_count_ = 0;
+  spreads_.clear();
   std::vector<Neighbour> certain;
   std::vector<bool> done(shapes_.size(), false);
   for (const auto& [score, index] : ranked_) {
@@ -113,6 +128,7 @@ void PoseSearch::fit_hypotheses(OutlineFit& fit, std::span<const Neighbour> neig
     if (within) continue;
     const OutlineFitted fitted =
         fit.fit(shapes_[hypothesis.triangle], hypothesis.placed, kColdWindow, PosePrior{}, neighbours);
+    if (tells_spread(fitted.evidence)) spreads_.push_back(fit.spread() - fitted.evidence.inwards);
     if (!may_be(fitted.evidence) || fitted.evidence.beyond() > kMostBeyondAtFirst) continue;
     if (candidate_count_ == candidates_.size()) candidates_.emplace_back();
     Candidate& candidate = candidates_[candidate_count_++];
@@ -127,6 +143,16 @@ void PoseSearch::fit_hypotheses(OutlineFit& fit, std::span<const Neighbour> neig
     }
     candidate.pixels.assign(fit.supported_pixels().begin(), fit.supported_pixels().end());
   }
+}
+
+/// The spread of outlines that this frame's triangles have in common, where it is another than was taken.
+std::optional<double> PoseSearch::other_spread(double taken) {
+  if (spreads_.empty()) return std::nullopt;
+  // Of look-alikes the one with less of it is the right one.
+  std::ranges::sort(spreads_, {}, [](double spread) { return std::abs(spread); });
+  const double common = spreads_[(spreads_.size() - 1) / 2];
+  if (std::abs(common - taken) < kLeastSpreadStep || std::abs(common) > kMostSpread) return std::nullopt;
+  return common;
 }
 
 bool PoseSearch::take(const Candidate& candidate, Claims& claims) {
@@ -212,6 +238,10 @@ void PoseSearch::find(const FrameView& frame, const ColourClasses& colours, Outl
   makes_.find(segments_, pixel, wish.wanted, hypotheses_);
   choose_hypotheses(fit);
   fit_hypotheses(fit, wish.neighbours);
+  if (const auto spread = other_spread(fit.spread())) {
+    fit.set_spread(*spread);
+    fit_hypotheses(fit, wish.neighbours);
+  }
   accept(fit, wish, claims, found);
 }
 

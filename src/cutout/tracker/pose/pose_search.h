@@ -46,6 +46,7 @@ class PoseSearch {
   };
   void choose_hypotheses(const OutlineFit& fit);
   void fit_hypotheses(OutlineFit& fit, std::span<const Neighbour> neighbours);
+  std::optional<double> other_spread(double taken);
   void accept(OutlineFit& fit, const SearchWish& wish, Claims& claims, std::vector<PoseFound>& found);
   bool take(const Candidate& candidate, Claims& claims);
   bool is_doubtful(const Candidate& candidate, const SearchWish& wish) const;
@@ -60,6 +61,7 @@ class PoseSearch {
   std::vector<PoseHypothesis> hypotheses_;
   std::vector<std::pair<double, std::size_t>> ranked_;  // hypotheses by what a glance says
   std::vector<Candidate> candidates_;
+  std::vector<double> spreads_;      // that triangles of the frame at hand tell, pixels
   std::size_t candidate_count_ = 0;  // those in use; the others keep their memory
   std::vector<bool> taken_;          // triangles that were accepted
 };

@@ -60,6 +60,7 @@ class PoseTracker : public Tracker {
     std::fill(lost_.begin(), lost_.end(), LastSeen{});
     last_time_.reset();
     colours_ = ColourClasses();
+    fit_.set_spread(0.0);
     colour_looks_ = 0;
     colours_seen_ = -1e9;
   }
