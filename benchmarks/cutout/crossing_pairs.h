@@ -3,7 +3,7 @@
 
 namespace icome::benchmarks {
 
-/// What the following tracker made of pairs that pass over or close beside one another.
+/// Sightings by the following tracker of pairs that pass over or close beside one another.
 struct CrossingFigures {
   std::size_t frames = 0;
   std::size_t swaps = 0;   ///< sightings of a triangle where its look-alike lies

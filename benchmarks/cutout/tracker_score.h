@@ -7,7 +7,7 @@
 
 namespace icome::benchmarks {
 
-/// What a tracker made of frames whose truth is known.
+/// Sightings by a tracker in frames whose truth is known.
 class TrackerScore {
  public:
   /// Farther from the truth than this, a sighting is a ghost.

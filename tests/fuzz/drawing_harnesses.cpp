@@ -14,7 +14,7 @@ namespace {
 using drawing::Drawing;
 using drawing::DrawingShape;
 
-/// What was read can be written and is read again as the same.
+/// A drawing that was read can be written and is read again as the same.
 void run_svg(std::string_view bytes) {
   const auto read = drawing::read_svg_text(bytes, "f");
   if (!read) return require_told(read.error());

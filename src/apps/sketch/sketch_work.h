@@ -27,7 +27,7 @@ std::size_t count_segments(const drawing::Drawing& drawing);
 /// "1 stroke", "2 strokes".
 std::string how_many(std::size_t count, const char* what);
 
-/// What reading the design remarked.
+/// The remarks of the reader of the design.
 std::vector<std::string> notes_of(const DesignDrawing& read);
 
 /// The drawing to begin with: an empty page for "new", an SVG file, a drawing in a design, or the curves of a

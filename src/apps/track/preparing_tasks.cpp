@@ -166,7 +166,7 @@ int run_track_learn(const TrackOptions& options) {
   if (measured.empty()) return track_failed({fmt::format("{}: {}", options.source, why)});
   const cutout::LearntTriangle learnt = cutout::middle_of(measured);
   known.triangles.push_back({options.id, learnt.base_angle, learnt.height, options.cell});
-  // What was written is read as anybody would read it, before it takes the place of the list.
+  // The text is read as anybody would read it, before it takes the place of the list.
   const std::string text = cutout::known_triangles_text(known);
   if (const auto good = cutout::read_known_triangles(text, options.known.string()); !good)
     return track_failed(good.error());

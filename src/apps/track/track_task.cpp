@@ -46,7 +46,7 @@ class KnownFile {
   std::filesystem::file_time_type time_;
 };
 
-/// What the run came to.
+/// Counts and times of a whole run.
 struct TrackTotals {
   std::size_t frames = 0;
   std::vector<double> times;      // ms

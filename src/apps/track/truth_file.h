@@ -8,7 +8,7 @@
 
 namespace icome::apps {
 
-/// What truly lay in frames that were made: by frame, in the order of the known list.
+/// The true poses in frames that were made: by frame, in the order of the known list.
 struct TruthFile {
   double rate = 30;  // frames/s
   std::vector<std::string> ids;

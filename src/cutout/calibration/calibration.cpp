@@ -26,7 +26,7 @@ struct TablePlane {
   Vector3 origin, right, down, away;
   double width = 0, height = 0;  // mm
 
-  /// Where the ray of a pixel without bending meets the plane.
+  /// The place in the plane that the ray of a pixel without bending meets.
   Vector3 met_by(const Lens& lens, const Vector2& pixel) const {
     const Vector3 way((pixel.x() - lens.cx) / lens.fx, (pixel.y() - lens.cy) / lens.fy, 1.0);
     return way * (away.dot(origin) / away.dot(way));

@@ -26,7 +26,7 @@ using BoardSight = std::vector<base::Vector2>;
 /// Looks for the whole board; nothing where it is not, or only in part.
 std::optional<BoardSight> find_chessboard(const FrameView& frame, const Chessboard& board);
 
-/// Where the board was: camera_from_board, mm, z away from the camera on a board that faces it.
+/// The place of the board: camera_from_board, mm, z away from the camera on a board that faces it.
 using BoardPose = Eigen::Isometry3d;
 
 struct LensCalibration {

@@ -14,7 +14,7 @@ using base::Vector2;
 constexpr double kLeastTable = 0.08;  // of the frame that the table must cover
 constexpr int kSideSamples = 160;
 
-/// How much of a colour a pixel has, from -1 to 1, and from where on it counts as that colour.
+/// The share of a colour that a pixel has, from -1 to 1, and from where on it counts as that colour.
 struct ColourMeasure {
   double (*strength)(const std::uint8_t* bgr);
   double least;
@@ -200,7 +200,7 @@ std::vector<Vector2> side_points(const FrameView& frame, const ColourMeasure& co
         break;
       const double here = strength_at(frame, colour, place);
       if (here < colour.least && before > colour.least) {
-        // What lies beyond sets the level: the middle between both sides, so that blur shifts nothing.
+        // The colour beyond sets the level: the middle between both sides, so that blur shifts nothing.
         const double inside = strength_at(frame, colour, place - 4 * outwards),
                      outside = strength_at(frame, colour, place + 4 * outwards);
         const double level = 0.5 * (inside + outside);

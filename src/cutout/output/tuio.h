@@ -10,7 +10,7 @@
 
 namespace icome::cutout {
 
-/// What was seen as TUIO 1.1 (Kaltenbrunner et al. 2005): a bundle of OSC 1.0 with /tuio/2Dobj messages for
+/// Sightings as TUIO 1.1 (Kaltenbrunner et al. 2005): a bundle of OSC 1.0 with /tuio/2Dobj messages for
 /// each frame, source, alive, set and fseq. The class is the place in the known list; a session lasts as long
 /// as a triangle is seen. Places are shares of the table's width and height, angles radians, clockwise as
 /// TUIO has them with y down; speeds in table widths a second and turns a second.

@@ -12,7 +12,7 @@
 
 namespace icome::cutout {
 
-/// How frames are asked for; what a source has no use for it passes over.
+/// Wishes for the frames of a source; what a source has no use for it passes over.
 struct SourceSettings {
   double rate = 0;        ///< frames/s: of a camera, or what pictures are taken for (0: as it comes, or 30)
   int width = 0;          ///< pixels, of a camera; 0: as it comes
@@ -20,7 +20,7 @@ struct SourceSettings {
   double patience = 8.0;  ///< s without a frame after which a camera, a stream or a video is given up
 };
 
-/// Where frames come from, one after the other. One thread at a time.
+/// A camera, stream, file or folder that gives frames, one after the other. One thread at a time.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
@@ -36,7 +36,7 @@ class FrameSource {
   virtual bool is_live() const { return false; }
   /// Number of all frames, where it is known.
   virtual std::optional<std::size_t> count() const { return std::nullopt; }
-  /// What is worth knowing at the end, in sentences.
+  /// Sentences for people at the end, such as that a file was cut off.
   virtual std::vector<std::string> notes() const { return {}; }
 };
 

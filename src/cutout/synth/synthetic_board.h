@@ -10,8 +10,8 @@ namespace icome::cutout {
 void paint_board(LinearPicture& picture, const SyntheticCamera& camera,
                  const Eigen::Isometry3d& world_from_board, const Chessboard& board, double light);
 
-/// Where the board is in the picture of that number of `count`: held above a table of that size in various
-/// ways, and in the last picture flat on it, at height `table_z`.
+/// The place of the board in the picture of that number of `count`: held above a table of that size in
+/// various ways, and in the last picture flat on it, at height `table_z`.
 Eigen::Isometry3d board_place(int number, int count, double table_width, double table_height, double table_z,
                               const Chessboard& board, std::uint64_t seed);
 

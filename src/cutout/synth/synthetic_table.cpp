@@ -223,7 +223,7 @@ struct SyntheticTable::Parts {
       }
   }
 
-  /// How far a pixel reaches at a place of the plane of that height.
+  /// The width of a pixel at a place of the plane of that height.
   Eigen::Matrix2d mm_from_pixels(const base::Vector2& mm, double z) const {
     constexpr double kStep = 0.5;
     Eigen::Matrix2d pixels;

@@ -37,10 +37,10 @@ struct SyntheticOptions {
   std::uint64_t seed = 1;
 };
 
-/// What is wrong with the options, in a sentence: sizes out of range, or triangles that find no place.
+/// Fails with a sentence about options that are wrong: sizes out of range, or triangles that find no place.
 base::Result<void> check(const SyntheticOptions& options);
 
-/// What is in a frame: in the order of the known list, the pose of each triangle.
+/// The true poses in a frame: in the order of the known list, the pose of each triangle.
 struct FrameTruth {
   double time = 0;  ///< s
   std::vector<TrianglePose> poses;
@@ -70,9 +70,9 @@ class SyntheticTable {
   /// The chessboard before the empty table, for a calibration: held in various ways, and in the last picture
   /// of `options.frames` flat on the table.
   Made make_board(int number) const;
-  /// How its camera sees the table, exactly.
+  /// The exact view of the table by its camera.
   TableView view() const;
-  /// How many hands were read from photos.
+  /// The number of hands that were read from photos.
   std::size_t photos() const;
 
  private:

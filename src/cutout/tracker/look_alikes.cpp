@@ -68,7 +68,7 @@ std::string three_in_corners(const KnownTriangles& known, std::size_t of) {
   const auto at_apex = corners_like(known, of, apex_of(whole));
   const double base = base_of(whole);
   const double leg = leg_of(whole);
-  // Of a corner at the base, `first` lies along the base and `second` along the leg.
+  // For a corner at the base, `first` lies along the base and `second` along the leg.
   for (const CornerOf& left : at_base)
     for (const CornerOf& right : at_base) {
       if (left.triangle >= right.triangle || !covers(left.first, right.first, base)) continue;

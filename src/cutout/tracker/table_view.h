@@ -13,7 +13,7 @@ struct Lens {
   double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
 };
 
-/// How the camera sees the table: between pixels of a frame and millimetres on the plane in which the upper
+/// The camera's view of the table: between pixels of a frame and millimetres on the plane in which the upper
 /// faces of the triangles lie. (0, 0) mm is the table's upper left corner, x to the right and y down as the
 /// camera sees it. The centre of the upper left pixel is (0, 0).
 class TableView {
@@ -43,7 +43,7 @@ class TableView {
   const base::Vector2& below_camera() const { return below_camera_; }
   double camera_height() const { return camera_height_; }
 
-  /// What the view is made of.
+  /// The parts that the view is made of.
   const Lens& lens() const { return lens_; }
   bool has_lens() const { return lens_.fx > 0; }
   const base::Matrix3& pixels_from_mm() const { return pixels_from_mm_; }

@@ -12,7 +12,7 @@
 
 namespace icome::cutout {
 
-/// Where a triangle lies: its centroid and the way from the middle of its base to its apex.
+/// The pose of a triangle on the table: its centroid and the way from the middle of its base to its apex.
 struct TrianglePose {
   base::Vector2 centroid = base::Vector2::Zero();  ///< mm, from the table's upper left corner, y down
   double angle = 0;  ///< rad, counter-clockwise as the camera sees it, 0 to the right, in (-pi, pi]

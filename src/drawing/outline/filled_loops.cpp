@@ -228,7 +228,8 @@ bool turn_for_even_odd(std::vector<std::vector<CubicBezier>>& loops, LoopAreas& 
     loops[i] = run_backwards(loops[i]);
     areas.turn(i);
   }
-  // What is wound around an odd number of times is part of what is wound around at all: as large, it is that.
+  // An area that is wound around an odd number of times is part of what is wound around at all: as large, it
+  // is that.
   const double all = areas.area_by_non_zero();
   return all - odd_area <= kSameArea * all;
 }

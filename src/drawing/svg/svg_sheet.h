@@ -23,7 +23,7 @@ class SvgSheet {
   std::vector<std::string_view> declarations_of(const XmlNode& node, std::size_t& looks) const;
 
  private:
-  /// What one element must have.
+  /// The name, ids and classes that one element must have.
   struct Compound {
     std::string element;  ///< empty: any
     std::vector<std::string> ids, classes;

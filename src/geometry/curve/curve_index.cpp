@@ -114,7 +114,7 @@ class CurveIndex::Search {
 
   static float square(float number) { return number * number; }
 
-  /// What is looked at soon comes into the cache meanwhile.
+  /// Data that is looked at soon comes into the cache meanwhile.
   void prefetch(std::uint32_t level, std::uint32_t place) const {
     if (level < index_.levels_) {
       __builtin_prefetch(&index_.nodes_[index_.start_[level] + place]);

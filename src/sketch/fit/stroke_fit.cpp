@@ -111,7 +111,7 @@ FittedLine fit_line(const PenStroke& stroke, const std::vector<Vector2>& line, c
   if (line.size() == 1) return {{CubicBezier::line(line[0], line[0])}, kUnitRounding};
   if (settings.method == FitMethod::Thesis) return by_thesis(line, settings.shared);
   FittedLine fitted = settings.refit ? refitted(stroke, line, settings.error) : FittedLine();
-  // Where the way is all noise, the pen's own segments may be fewer, and a pen that is lifted must not get
+  // If the way is all noise, the pen's own segments may be fewer, and a pen that is lifted must not get
   // more.
   const std::size_t most =
       fitted.error <= 1.0 ? fitted.curve.size() : std::numeric_limits<std::size_t>::max();

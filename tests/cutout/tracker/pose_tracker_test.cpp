@@ -359,7 +359,8 @@ TEST(PoseTracker, ReportsNothingThatIsHiddenForLong) {
 }
 
 TEST(PoseTracker, KeepsWhichIsWhichWhenLookAlikesCross) {
-  // Of nearly one shape; each passes over the path of the other, one above the other for a while.
+  // Two triangles of nearly one shape; each passes over the path of the other, one above the other for a
+  // while.
   KnownTriangles known;
   known.triangles = {{"one", 50 * kDegree, 60, ""}, {"other", 51 * kDegree, 61, ""}};
   const TableView view = TableView::whole_frame(420, 180, 420, 180);

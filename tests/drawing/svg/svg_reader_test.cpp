@@ -222,9 +222,11 @@ TEST(SvgReader, LeavesOutFaultyAttributes) {
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->notes,
             (std::vector<std::string>{
-                "a.svg:1: the height 'many' is no length in a unit of SVG above 0 and up to 10000 m, and is left out",
+                "a.svg:1: the height 'many' is no length in a unit of SVG above 0 and up to 10000 m, and is "
+                "left out",
                 "a.svg:1: the viewBox '0 0 0 1' is not four numbers, the last two above 0: it is left out",
-                "a.svg:1: the width '0' is no length in a unit of SVG above 0 and up to 10000 m, and is left out"}));
+                "a.svg:1: the width '0' is no length in a unit of SVG above 0 and up to 10000 m, and is left "
+                "out"}));
   EXPECT_EQ(read->drawing.size, Drawing().size);
   EXPECT_TRUE(read->drawing.bounds().max().isApprox(Vector2(0.0254, 0.0254)));
 }

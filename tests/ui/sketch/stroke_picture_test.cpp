@@ -108,7 +108,7 @@ TEST_F(StrokePictureTest, IsAsMadeAtOnceWhileStrokesAreDragged) {
       if (drag % 2 == 1) strokes(1)[other] = random_stroke(random_, drawing_.next_id++);
       show();
       expect_as_at_once(kLayersRounding);
-      // What is beside it changes meanwhile.
+      // The strokes beside it change meanwhile.
       if (i == 6) change_at_random();
       if (HasFailure()) FAIL() << drag << ", " << i;
     }

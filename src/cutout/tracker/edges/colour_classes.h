@@ -7,7 +7,7 @@
 
 namespace icome::cutout {
 
-/// What a pixel's colour may belong to.
+/// The things of the table, by the colour of a pixel.
 enum class ColourClass : std::uint8_t { Other, Red, Blue, Skin };
 
 /// Classes of colours by a table of 32 x 32 x 32. A class follows from shares of the channels, not from their

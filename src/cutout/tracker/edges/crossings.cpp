@@ -31,7 +31,7 @@ void signal_of_pixels(const std::uint8_t* bgr, std::int8_t* signal, int first, i
 }
 
 #if defined(__x86_64__)
-/// The same for all pixels but less than 16 at the end; gives the number of those done.
+/// The signal of all pixels of a row but less than 16 at the end; gives the number of those done.
 __attribute__((target("ssse3"))) int signal_by_sixteens(const std::uint8_t* bgr, std::int8_t* signal,
                                                         int width, int half_threshold) {
   const auto at = [](int i) { return std::int8_t(i); };
@@ -110,7 +110,7 @@ void Crossings::add(const FrameView& frame, const ColourClasses& colours, const 
   for (int i = -2; i <= 1; ++i) side_slope += 2 * (s[i * along + across] - s[i * along - across]);
   if (along_row ? std::abs(side_slope) > std::abs(slope) : std::abs(side_slope) >= std::abs(slope)) return;
   const double before = s[-along], after = s[0];
-  // Where the signal is at the threshold itself, which may lie a little before these two.
+  // The place where the signal is at the threshold itself, which may lie a little before these two.
   const double level = -kNeutral / 2;
   const double part =
       before == after ? -0.5 : std::clamp((level - before) / (after - before), -1.0, 1.0) - 1.0;

@@ -10,8 +10,8 @@
 
 namespace icome::cutout {
 
-/// What the frame says of places on a triangle's outline. A place is supported by an edge from red to blue,
-/// contradicted by red within or by an edge that lies elsewhere, beside blue beyond where blue goes on
+/// The frame's evidence about places on a triangle's outline. A place is supported by an edge from red to
+/// blue, contradicted by red within or by an edge that lies elsewhere, beside blue beyond where blue goes on
 /// outside, and otherwise unknown: skin and other things hide it.
 struct OutlineEvidence {
   int places = 0, supported = 0, contradicted = 0, blue_beyond = 0;
@@ -34,7 +34,7 @@ struct Neighbour {
   Placed placed;
 };
 
-/// What is known of a pose before a frame is looked at: it draws the pose to itself by so much.
+/// Knowledge of a pose before a frame is looked at: it draws the pose to itself by so much.
 struct PosePrior {
   double place = 3;    ///< standard deviation, mm
   double turn = 0.05;  ///< rad

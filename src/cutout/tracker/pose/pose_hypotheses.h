@@ -7,7 +7,7 @@
 
 namespace icome::cutout {
 
-/// Where a triangle may lie, by two pieces of its edges.
+/// A pose that a triangle may have, by two pieces of its edges.
 struct PoseHypothesis {
   std::size_t triangle;
   Placed placed;

@@ -91,7 +91,7 @@ void PoseSearch::choose_hypotheses(const OutlineFit& fit) {
   std::sort(ranked_.begin(), ranked_.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first > b.first : a.second < b.second;
   });
-  // Of those that are nearly one, the best stands for all.
+  // Among hypotheses that are nearly one, the best stands for all.
   std::vector<std::vector<std::size_t>> of_triangle(shapes_.size());
   std::size_t kept = 0;
   for (const auto& [score, index] : ranked_) {
@@ -148,7 +148,7 @@ void PoseSearch::fit_hypotheses(OutlineFit& fit, std::span<const Neighbour> neig
 /// The spread of outlines that this frame's triangles have in common, where it is another than was taken.
 std::optional<double> PoseSearch::other_spread(double taken) {
   if (spreads_.empty()) return std::nullopt;
-  // Of look-alikes the one with less of it is the right one.
+  // Among look-alikes the one with less of it is the right one.
   std::ranges::sort(spreads_, {}, [](double spread) { return std::abs(spread); });
   const double common = spreads_[(spreads_.size() - 1) / 2];
   if (std::abs(common - taken) < kLeastSpreadStep || std::abs(common) > kMostSpread) return std::nullopt;

@@ -31,7 +31,7 @@ constexpr int kLeastTablePlaces = 40;  // of these that must be red
 constexpr int kColourMemory = 8;       // looks over which colours are averaged
 constexpr int kPatience = 3;           // frames between full searches while nothing new is found
 
-/// What is known of a triangle over time.
+/// The state of a triangle over time.
 struct TriangleTrack {
   bool followed = false;               // its pose is known, perhaps from a moment ago
   bool sure = false;                   // seen in two frames, or very well in one

@@ -8,7 +8,7 @@ namespace icome::cutout {
 
 using base::Vector2;
 
-/// Where a triangle lies, in the table's own axes (x right, y down): turned from x towards y.
+/// The pose of a triangle in the table's own axes (x right, y down): turned from x towards y.
 struct Placed {
   Vector2 centroid = Vector2::Zero();  ///< mm
   double turn = 0;                     ///< rad, from the x axis towards the y axis, of the way to the apex

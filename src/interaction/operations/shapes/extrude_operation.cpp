@@ -31,7 +31,7 @@ struct ObjectProfiles {
   base::Affine3 shape_from_profile = base::Affine3::Identity();
 };
 
-/// Of a drawing: what its closed curves enclose or, where they are `open`, its other curves.
+/// The profiles of a drawing: what its closed curves enclose or, where they are `open`, its other curves.
 Result<std::vector<geometry::Profile>> profiles_of_curves(const world::Geometry& shape, bool open) {
   constexpr double kFineness = 2000.0;  // of the shape's size
   const auto curves = shape.flat_curves(shape.bounds().diagonal().norm() / kFineness);
