@@ -107,8 +107,7 @@ base::Result<GeometryPointer> csg_of(const ShapeText& text) {
 base::Result<GeometryPointer> drawing_of(const ShapeText& text) {
   const auto body = numbers_of(text, "body", 3);
   if (!body) return tl::unexpected(body.error());
-  if (body->size() != 3) return base::fail("body: needs three numbers");
-  return drawing::shape_of_svg(word_of(text, "svg"), {{(*body)[0], (*body)[1]}, (*body)[2]});
+  return drawing::shape_of_svg(word_of(text, "svg"), *body);
 }
 
 base::Result<GeometryPointer> implicit_of(const ShapeText& text) {
@@ -170,11 +169,8 @@ base::Result<std::optional<ShapeText>> shape_text(const world::Geometry& shape) 
       },
       [&](const world::Geometry& it) -> Text {
         if (const auto* const drawn = drawing::drawing_in(it)) {
-          const drawing::DrawingBody& body = drawn->body();
-          return ShapeText{{"kind", kind},
-                           {"svg", drawing::svg_of(*drawn)},
-                           {"body", text_of(std::vector<Vector3>{
-                                        {body.heights.height, body.heights.height_by_width, body.sheet}})}};
+          return ShapeText{
+              {"kind", kind}, {"svg", drawing::svg_of(*drawn)}, {"body", drawing::text_of(drawn->body())}};
         }
         return base::fail(fmt::format("Shapes of the kind \"{}\" have no text.", kind));
       });

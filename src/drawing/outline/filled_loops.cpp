@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "drawing/outline/straight_pieces.h"
 #include "fonts/outline_union.h"
 
 namespace icome::drawing {
@@ -149,12 +150,6 @@ class LoopAreas {
 
  private:
   Vector2 on_paper(const Vector2& corner) const { return middle_ + step_ * corner; }
-
-  /// A piece that is an n-th in t leaves its chord by |f''| / (8 n^2) at most.
-  static double straight_pieces(const CubicBezier& cubic, double tolerance) {
-    const double bend = std::max(cubic.second_derivative(0.0).norm(), cubic.second_derivative(1.0).norm());
-    return std::max(1.0, std::ceil(std::sqrt(bend / (8.0 * tolerance))));
-  }
 
   std::vector<Vector2> ring_of(const std::vector<CubicBezier>& loop, double tolerance) const {
     std::vector<Vector2> ring;

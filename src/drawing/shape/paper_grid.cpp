@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drawing/outline/straight_pieces.h"
+
 namespace icome::drawing {
 namespace {
 
@@ -29,9 +31,7 @@ std::vector<Vector2> PaperGrid::line_along(std::span<const CubicBezier> chain, b
                                            double tolerance) const {
   std::vector<Vector2> line;
   for (const CubicBezier& cubic : chain) {
-    // A piece that is an n-th in t leaves its chord by |f''| / (8 n^2) at most.
-    const double bend = std::max(cubic.second_derivative(0.0).norm(), cubic.second_derivative(1.0).norm());
-    const int pieces = int(std::clamp(std::ceil(std::sqrt(bend / (8.0 * tolerance))), 1.0, kMostPieces));
+    const int pieces = int(std::min(straight_pieces(cubic, tolerance), kMostPieces));
     for (int i = 0; i < pieces; ++i) line.push_back(on_grid(cubic.at(double(i) / pieces)));
   }
   if (!closed && !chain.empty()) line.push_back(on_grid(chain.back().at(1.0)));

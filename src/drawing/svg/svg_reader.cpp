@@ -25,7 +25,6 @@
 namespace icome::drawing {
 namespace {
 
-constexpr std::uint64_t kLargestSvg = 64U << 20U;    // bytes
 constexpr int kDeepestSvg = 200;                     // elements within one another, through <use> too
 constexpr int kMostUsesWithin = 32;                  // <use> that shows <use> and so on
 constexpr std::size_t kMostSvgElements = 2'000'000;  // drawn, through <use> too

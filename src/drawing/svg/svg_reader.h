@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -8,6 +9,9 @@
 #include "drawing/drawing.h"
 
 namespace icome::drawing {
+
+/// The most bytes of a file that is read.
+inline constexpr std::uint64_t kLargestSvg = 64U << 20U;
 
 /// The content of an SVG file.
 struct DrawingRead {

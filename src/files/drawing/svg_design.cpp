@@ -2,24 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "drawing/shape/drawing_shape.h"
 #include "drawing/svg/svg_reader.h"
 #include "drawing/svg/svg_writer.h"
 #include "files/design_builder.h"
+#include "io/file_bytes.h"
 #include "io/new_file.h"
 
 namespace icome::files {
 
 base::Result<LoadedDesign> read_svg_design(const std::filesystem::path& path,
                                            const DesignReadOptions& options, io::MemoryBudget& memory) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!error && size > options.size_limit) {
-    return base::fail(
-        fmt::format("{}: is larger than the limit of {} MB.", path.string(), options.size_limit >> 20U));
-  }
-  if (!error) memory.add_file(size);
-  auto read = drawing::read_svg_drawing(path);
+  const auto bytes = io::read_bytes(path, std::min(options.size_limit, drawing::kLargestSvg));
+  if (!bytes) return tl::unexpected(bytes.error());
+  memory.add_file(bytes->size());
+  auto read = drawing::read_svg_text(*bytes, path.string());
   if (!read) return tl::unexpected(read.error());
   auto shape = drawing::DrawingShape::create(std::move(read->drawing), {});
   if (!shape) return base::fail(fmt::format("{}: {}", path.string(), shape.error().message));

@@ -88,11 +88,6 @@ Result<GeometryPointer> implicit_of(const std::string& formula, const std::vecto
   return GeometryPointer(std::move(*shape));
 }
 
-Result<GeometryPointer> drawing_of(const std::string& svg, const std::vector<double>& body) {
-  if (body.size() != 3) return base::fail("it has no heights");
-  return drawing::shape_of_svg(svg, {{body[0], body[1]}, body[2]});
-}
-
 Result<GeometryPointer> csg_of(const std::string& text) {
   auto tree = csg_from_text(text);
   if (!tree) return tl::unexpected(tree.error());
@@ -219,7 +214,8 @@ class GeometryReader {
       case flat::GeometryKind::Implicit:
         return implicit_of(reader_.text(geometry_.text()), reader_.items<double>(geometry_.box()));
       case flat::GeometryKind::Drawing:
-        return drawing_of(reader_.text(geometry_.text()), reader_.items<double>(geometry_.sizes()));
+        return drawing::shape_of_svg(reader_.text(geometry_.text()),
+                                     reader_.items<double>(geometry_.sizes()));
       case flat::GeometryKind::Primitive:
         return primitive_of_text(reader_.text(geometry_.text()), geometry_.along_y());
       default:

@@ -135,15 +135,9 @@ class VrmlShapes::ByKind {
   }
 
   void write(const drawing::DrawingShape& shape) {
-    const drawing::DrawingBody& body = shape.body();
-    std::string numbers;
-    for (const double number : {body.heights.height, body.heights.height_by_width, body.sheet}) {
-      if (!numbers.empty()) numbers += ' ';
-      io::append_number(numbers, number);
-    }
     open(kDrawingProto.name);
     text_.text_field("svg", drawing::svg_of(shape));
-    text_.text_field("body", numbers);
+    text_.text_field("body", drawing::text_of(shape.body()));
     tell_of_part_colours_left(false);
     show(shape, VrmlEdges::SharpWhereBent);
   }
