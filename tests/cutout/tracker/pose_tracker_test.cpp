@@ -263,6 +263,41 @@ Frame with_halved_colours(const Frame& frame, bool interpolated) {
   return halved;
 }
 
+/// The corners of a triangle whose edges lie farther out by that much, mm.
+std::vector<Vector2> widened(const std::array<Vector2, 3>& corners, double by) {
+  std::array<double, 3> opposite{};
+  for (std::size_t i = 0; i < 3; ++i) opposite[i] = (corners[(i + 1) % 3] - corners[(i + 2) % 3]).norm();
+  const double around = opposite[0] + opposite[1] + opposite[2];
+  const Vector2 middle =
+      (opposite[0] * corners[0] + opposite[1] * corners[1] + opposite[2] * corners[2]) / around;
+  const Vector2 one = corners[1] - corners[0], other = corners[2] - corners[0];
+  const double inner_radius = std::abs(one.x() * other.y() - one.y() * other.x()) / around;
+  std::vector<Vector2> wide;
+  for (const Vector2& corner : corners) wide.push_back(middle + (1 + by / inner_radius) * (corner - middle));
+  return wide;
+}
+
+TEST(PoseTracker, FindsTrianglesThatAllLookALittleLargerThanTheListSays) {
+  const TableView view = TableView::whole_frame(640, 480, 640, 480);
+  const KnownTriangles known = drawn_triangles(8);
+  base::Random random(43);
+  std::size_t found = 0;
+  constexpr int kFrames = 6;
+  for (int i = 0; i < kFrames; ++i) {
+    const double by = i % 2 == 0 ? 0.8 : -0.8;  // mm, which are pixels here
+    const std::vector<TrianglePose> truth = scattered(known, view, random);
+    DrawnTable table(view);
+    for (std::size_t t = 0; t < truth.size(); ++t)
+      table.convex(widened(corners_of(known.triangles[t], truth[t]), by), kPaperBlue);
+    const auto seen = make_pose_tracker(known, view, false)->see(table.frame(1, std::uint64_t(i)).view(), 0);
+    ASSERT_TRUE(seen);
+    found += seen->size();
+    for (const Sighting& sighting : *seen)
+      EXPECT_LT((sighting.pose.centroid - truth[sighting.triangle].centroid).norm(), 0.2);
+  }
+  EXPECT_GE(found, std::size_t(0.95 * kFrames * 8));
+}
+
 TEST(PoseTracker, FindsTrianglesWhoseColoursAreKeptAtHalfTheSize) {
   const TableView view = TableView::whole_frame(640, 480, 640, 480);
   const KnownTriangles known = drawn_triangles(8);

@@ -21,6 +21,10 @@ constexpr double kSupportReach = 1.2;    // pixels from the outline to an edge t
 constexpr double kWallLight = 0.5;       // of the light of the upper faces, that walls are taken to have
 constexpr double kEdgeBlur = 0.9;        // pixels, standard deviation that edges are taken to have
 constexpr int kFineWindow = 3;           // pixels
+constexpr double kFarthestAlike = 2.5;  // pixels from the outline to edges that all lie within it, or outside
+constexpr double kAlike = 0.4;          // pixels by which these edges may differ
+constexpr std::size_t kLeastAlike = 3;  // places seen of each edge
+constexpr double kLeastShareAlike = 0.6;  // of its places
 constexpr double kEdgeNoise = 0.1;  // pixels, of one found edge, for its weight against what is known before
 
 using LinearLight = std::array<float, 256>;
@@ -278,13 +282,36 @@ bool OutlineFit::solve(const TriangleShape& shape, Placed& placed, const Placed&
   return true;
 }
 
+std::optional<double> OutlineFit::common_inwards() {
+  std::array<double, 3> middles{};
+  for (std::size_t edge = 0; edge < 3; ++edge) {
+    residuals_.clear();
+    std::size_t samples = 0;
+    for (const Sample& sample : samples_) {
+      if (std::size_t(sample.edge) != edge) continue;
+      ++samples;
+      if (sample.outcome == Outcome::Supported && std::abs(sample.residual) < kFarthestAlike * pixel_)
+        residuals_.push_back(sample.residual / pixel_);
+    }
+    if (residuals_.size() < kLeastAlike || double(residuals_.size()) < kLeastShareAlike * double(samples))
+      return std::nullopt;
+    const auto middle = residuals_.begin() + std::ptrdiff_t(residuals_.size() / 2);
+    std::nth_element(residuals_.begin(), middle, residuals_.end());
+    middles[edge] = *middle;
+  }
+  const double mean = (middles[0] + middles[1] + middles[2]) / 3;
+  for (const double middle : middles)
+    if (std::abs(middle - mean) > kAlike) return std::nullopt;
+  return mean;
+}
+
 void OutlineFit::judge(const TriangleShape& shape, const Placed& placed, OutlineEvidence& evidence) {
   evidence = {};
   supported_pixels_.clear();
   const double cosine = std::cos(placed.turn), sine = std::sin(placed.turn);
   std::array<Vector2, 3> normals;
   for (std::size_t i = 0; i < 3; ++i) normals[i] = turned(shape.normals[i], cosine, sine);
-  double squares = 0, sum = 0;
+  double squares = 0;
   for (const Sample& sample : samples_) {
     const std::size_t edge = std::size_t(sample.edge);
     ++evidence.places;
@@ -300,10 +327,8 @@ void OutlineFit::judge(const TriangleShape& shape, const Placed& placed, Outline
     ++evidence.supported;
     ++evidence.supported_of[edge];
     squares += off * off;
-    sum += off;
     supported_pixels_.push_back(sample.pixel);
   }
-  evidence.inwards = evidence.supported ? sum / evidence.supported / pixel_ : 0.0;
   evidence.rms = evidence.supported ? std::sqrt(squares / evidence.supported) / pixel_ : 0.0;
 }
 
@@ -320,6 +345,7 @@ OutlineFitted OutlineFit::fit(const TriangleShape& shape, const Placed& from, do
     if (!solve(shape, fitted.placed, from, (wide + 2) * pixel_, 2, prior, fitted.information) ||
         !solve(shape, fitted.placed, from, 3 * pixel_, 2, prior, fitted.information))
       return fitted;
+    fitted.inwards = common_inwards();
   }
   for (int round = 0; round < 2; ++round) {
     const Placed before = fitted.placed;

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,7 +18,6 @@ struct OutlineEvidence {
   int places = 0, supported = 0, contradicted = 0, blue_beyond = 0;
   std::array<int, 3> places_of{}, supported_of{};  ///< the same by edges
   double rms = 0;                                  ///< of supported places from the outline, pixels
-  double inwards = 0;  ///< mean of the same with their sign, pixels: above 0 they lie within
 
   double support() const { return places ? double(supported) / places : 0.0; }
   double contradiction() const { return places ? double(contradicted) / places : 0.0; }
@@ -45,6 +45,9 @@ struct OutlineFitted {
   Placed placed;
   OutlineEvidence evidence;
   base::Matrix3 information = base::Matrix3::Zero();  ///< of x, y (mm) and turn, by the edges alone
+  /// Pixels by which all three edges lie within the outline, alike; none where they do not, or too little is
+  /// seen.
+  std::optional<double> inwards = std::nullopt;
 };
 
 /// Measures triangles in a frame: along rows and columns through their outlines, to sub-pixel.
@@ -99,6 +102,7 @@ class OutlineFit {
                 float level, Vector2& found, bool& near) const;
   bool solve(const TriangleShape& shape, Placed& placed, const Placed& from, double reach, int rounds,
              const PosePrior& prior, base::Matrix3& information);
+  std::optional<double> common_inwards();
   void judge(const TriangleShape& shape, const Placed& placed, OutlineEvidence& evidence);
   ColourClass class_at(double x, double y) const;
 
@@ -109,6 +113,7 @@ class OutlineFit {
   double pixel_ = 1;               // mm, about the triangle at hand
   std::array<double, 3> walls_{};  // mm that each edge is seen farther out, as the wall below it is blue too
   std::vector<Sample> samples_;
+  std::vector<double> residuals_;  // of one edge, pixels
   std::vector<Vector2> supported_pixels_;
 };
 

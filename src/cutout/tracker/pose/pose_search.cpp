@@ -20,7 +20,6 @@ constexpr double kMostBeyondAtFirst = 0.35;  // before the others are known
 constexpr double kMostLoose = 0.45;        // pixels that edges lie about the outline, root of the mean square
 constexpr double kMostStepped = 0.7;       // likewise, of a triangle that is seen all around: colours kept at
                                            // half the size make steps of edges
-constexpr double kSpreadSupport = 0.6;     // of a triangle that tells how far outlines spread
 constexpr double kLeastSpreadStep = 0.25;  // pixels, below which it stays as it is
 constexpr double kMostSpread = 1.5;        // pixels
 constexpr double kCertainSupport = 0.85;   // of a triangle that is seen all around
@@ -52,14 +51,6 @@ bool is_whole(const OutlineEvidence& evidence) {
 bool is_alike(const TriangleShape& a, const TriangleShape& b) {
   return std::abs(a.corner_angles[1] - b.corner_angles[1]) < kAlikeAngle &&
          std::abs(a.reach - b.reach) < kAlikeReach * a.reach;
-}
-
-/// Are the edges of a triangle seen, all as far within it or outside of it?
-bool tells_spread(const OutlineEvidence& evidence) {
-  const double about =
-      std::sqrt(std::max(0.0, evidence.rms * evidence.rms - evidence.inwards * evidence.inwards));
-  return evidence.support() >= kSpreadSupport && is_whole(evidence) && about <= kMostLoose &&
-         evidence.contradiction() <= kMostAgainst && evidence.beyond() <= kMostBeyondAtFirst;
 }
 
 bool may_be(const OutlineEvidence& evidence) {
@@ -128,7 +119,7 @@ void PoseSearch::fit_hypotheses(OutlineFit& fit, std::span<const Neighbour> neig
     if (within) continue;
     const OutlineFitted fitted =
         fit.fit(shapes_[hypothesis.triangle], hypothesis.placed, kColdWindow, PosePrior{}, neighbours);
-    if (tells_spread(fitted.evidence)) spreads_.push_back(fit.spread() - fitted.evidence.inwards);
+    if (fitted.inwards) spreads_.push_back(fit.spread() - *fitted.inwards);
     if (!may_be(fitted.evidence) || fitted.evidence.beyond() > kMostBeyondAtFirst) continue;
     if (candidate_count_ == candidates_.size()) candidates_.emplace_back();
     Candidate& candidate = candidates_[candidate_count_++];
