@@ -225,34 +225,4 @@ base::Result<DrawingEdit> apply_edit(Drawing& drawing, const DrawingEdit& edit) 
   return back;
 }
 
-/// Applies the edit here and tells the sink, or neither.
-base::Result<DrawingEdit> DrawingHistory::apply_to_all(const DrawingEdit& edit) {
-  auto back = apply_edit(drawing_, edit);
-  if (!back || !sink_) return back;
-  const auto taken = sink_(edit);
-  if (taken) return back;
-  (void)apply_edit(drawing_, *back);
-  return tl::unexpected(taken.error());
-}
-
-base::Result<void> DrawingHistory::perform(const DrawingEdit& edit) {
-  auto back = apply_to_all(edit);
-  if (!back) return tl::unexpected(back.error());
-  undo_.push_back(std::move(*back));
-  redo_.clear();
-  return {};
-}
-
-bool DrawingHistory::step(std::vector<DrawingEdit>& from, std::vector<DrawingEdit>& to) {
-  if (from.empty()) return false;
-  auto back = apply_to_all(from.back());
-  if (!back) return false;
-  from.pop_back();
-  to.push_back(std::move(*back));
-  return true;
-}
-
-bool DrawingHistory::undo() { return step(undo_, redo_); }
-bool DrawingHistory::redo() { return step(redo_, undo_); }
-
 }  // namespace icome::drawing

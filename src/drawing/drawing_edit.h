@@ -1,9 +1,9 @@
 #pragma once
-#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "base/edit_history.h"
 #include "base/result.h"
 #include "drawing/drawing.h"
 
@@ -75,36 +75,7 @@ base::Result<void> check_drawing(const Drawing& drawing);
 /// longer than kLargestDrawing.
 base::Result<DrawingEdit> apply_edit(Drawing& drawing, const DrawingEdit& edit);
 
-/// A drawing with the edits that were done to it, so that they can be taken back and done again.
-class DrawingHistory {
- public:
-  explicit DrawingHistory(Drawing drawing) : drawing_(std::move(drawing)) {}
-
-  const Drawing& drawing() const { return drawing_; }
-  /// For ids of new things, which are not taken back.
-  Drawing& ids() { return drawing_; }
-
-  /// Hears each edit that is applied, also those of undo and redo, and may refuse it.
-  using Sink = std::function<base::Result<void>(const DrawingEdit& edit)>;
-  void set_sink(Sink sink) { sink_ = std::move(sink); }
-
-  /// Applies the edit as one step that can be undone; what was undone before is forgotten. Fails as
-  /// apply_edit() and the sink do.
-  base::Result<void> perform(const DrawingEdit& edit);
-  /// False where there is nothing to take back, or to do again, or the sink refuses.
-  bool undo();
-  bool redo();
-  bool can_undo() const { return !undo_.empty(); }
-  bool can_redo() const { return !redo_.empty(); }
-
- private:
-  bool step(std::vector<DrawingEdit>& from, std::vector<DrawingEdit>& to);
-  base::Result<DrawingEdit> apply_to_all(const DrawingEdit& edit);
-
-  Drawing drawing_;
-  std::vector<DrawingEdit> undo_;
-  std::vector<DrawingEdit> redo_;
-  Sink sink_;
-};
+/// A drawing with the edits that were done to it.
+using DrawingHistory = base::EditHistory<Drawing, DrawingEdit>;
 
 }  // namespace icome::drawing

@@ -70,6 +70,8 @@ class KeyReader {
   std::vector<KeyReader> tables(const std::string& key, const std::string& what);
   /// The table of a key; null if there is no such key.
   const TomlNode* table(const std::string& key);
+  /// The value of a key, whatever it is; null if there is no such key.
+  const TomlNode* value(const std::string& key) { return take(key); }
 
   template <typename Meaning>
   Meaning word(const std::string& key, const Words<Meaning>& words, Meaning otherwise);

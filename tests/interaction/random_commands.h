@@ -79,6 +79,8 @@ class RandomCommands {
         return count(parameter);
       case ParameterKind::Text:
         return text();
+      case ParameterKind::Texts:
+        return several([&] { return text(); }, 1, 3);
       case ParameterKind::Picture:
         return one_in(3) ? Value("missing.png") : Value("wood.png");
       case ParameterKind::Choice:

@@ -9,6 +9,7 @@
 
 #include "io/file_bytes.h"
 #include "io/key_reader.h"
+#include "io/toml_text.h"
 #include "io/toml_tree.h"
 
 namespace icome::cutout {
@@ -34,20 +35,6 @@ KnownTriangle read_triangle(io::KeyReader& keys, std::map<std::string, std::size
                                                   "one another id.",
                                                   triangle.id, first->second));
   return triangle;
-}
-
-/// A TOML string between quotes.
-std::string quoted_toml(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    if (letter == '"' || letter == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(letter) < 0x20U || letter == 0x7f) {
-      quoted += fmt::format("\\u{:04X}", static_cast<unsigned>(static_cast<unsigned char>(letter)));
-      continue;
-    }
-    quoted += letter;
-  }
-  return quoted + "\"";
 }
 
 }  // namespace
@@ -84,8 +71,8 @@ std::string known_triangles_text(const KnownTriangles& known) {
   std::string text = "# Triangles that the tracker knows.\n";
   for (const KnownTriangle& triangle : known.triangles) {
     text += fmt::format("\n[[triangle]]\nid = {}\nbase_angle_deg = {:.12g}\nheight_mm = {:.12g}\n",
-                        quoted_toml(triangle.id), triangle.base_angle / kDegrees, triangle.height);
-    if (!triangle.cell.empty()) text += fmt::format("cell = {}\n", quoted_toml(triangle.cell));
+                        io::quoted_toml(triangle.id), triangle.base_angle / kDegrees, triangle.height);
+    if (!triangle.cell.empty()) text += fmt::format("cell = {}\n", io::quoted_toml(triangle.cell));
   }
   return text;
 }

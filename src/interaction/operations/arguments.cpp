@@ -37,6 +37,8 @@ std::string wanted(const Parameter& parameter) {
       return "a whole number";
     case ParameterKind::Text:
       return "a text";
+    case ParameterKind::Texts:
+      return "a text, or a list of texts";
     case ParameterKind::Picture:
       return "the name of a picture's file";
     case ParameterKind::Choice:
@@ -97,6 +99,13 @@ Check check_points(const Parameter& parameter, const Value& value) {
   for (const Value& point : *list)
     if (auto good = check_numbers(parameter, point, false, parameter.components); !good) return good;
   return {};
+}
+
+Check check_texts(const Parameter& parameter, const Value& value) {
+  if (value.text()) return {};
+  const Value::List* list = value.list();
+  const auto is_text = [](const Value& item) { return item.text() != nullptr; };
+  return list && !list->empty() && std::ranges::all_of(*list, is_text) ? Check() : not_wanted(parameter);
 }
 
 Check check_colour(const Parameter& parameter, const Value& value) {
@@ -172,6 +181,8 @@ Check check_value(const Parameter& parameter, const Value& value, const world::W
     case ParameterKind::Text:
     case ParameterKind::Picture:
       return value.text() ? Check() : not_wanted(parameter);
+    case ParameterKind::Texts:
+      return check_texts(parameter, value);
     case ParameterKind::Choice:
       return value.text() && std::ranges::count(parameter.choices, *value.text()) > 0 ? Check()
                                                                                       : not_wanted(parameter);
@@ -298,6 +309,13 @@ bool Arguments::flag(std::string_view name) const { return *at(name).flag(); }
 double Arguments::number(std::string_view name) const { return *at(name).number(); }
 std::int64_t Arguments::count(std::string_view name) const { return std::int64_t(*at(name).number()); }
 const std::string& Arguments::text(std::string_view name) const { return *at(name).text(); }
+
+std::vector<std::string> Arguments::texts(std::string_view name) const {
+  if (at(name).text()) return {text(name)};
+  std::vector<std::string> texts;
+  for (const Value& item : *at(name).list()) texts.push_back(*item.text());
+  return texts;
+}
 
 world::Colour Arguments::colour(std::string_view name) const {
   if (const std::string* text = at(name).text()) return colour_from_text(*text).value_or(world::Colour{});

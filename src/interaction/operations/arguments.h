@@ -36,6 +36,7 @@ class Arguments {
   double number(std::string_view name) const;
   std::int64_t count(std::string_view name) const;
   const std::string& text(std::string_view name) const;  // of a Choice too
+  std::vector<std::string> texts(std::string_view name) const;
   world::Colour colour(std::string_view name) const;
   Vector3 vector(std::string_view name) const;
   std::vector<double> numbers(std::string_view name) const;

@@ -58,6 +58,8 @@ std::string kind_of(const Parameter& parameter) {
       return "whole number";
     case ParameterKind::Text:
       return "text";
+    case ParameterKind::Texts:
+      return "text or [text, ...]";
     case ParameterKind::Picture:
       return "file";
     case ParameterKind::Choice:

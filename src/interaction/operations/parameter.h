@@ -15,6 +15,7 @@ enum class ParameterKind : std::uint8_t {
   Number,   ///< finite
   Count,    ///< a whole number
   Text,     ///< a name or words
+  Texts,    ///< a list of names or words; one may stand alone
   Picture,  ///< the name of a picture's file
   Choice,   ///< one of `choices`
   Colour,   ///< red, green and blue in [0, 1], "#rrggbb" or the name of a colour

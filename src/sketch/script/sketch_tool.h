@@ -37,7 +37,7 @@ class SketchRunner {
  public:
   explicit SketchRunner(Drawing drawing);
 
-  const Drawing& drawing() const { return history_.drawing(); }
+  const Drawing& drawing() const { return history_.value(); }
   const Selection& selection() const { return selection_; }
   /// The layer that new strokes go to: the one that was chosen, or no id where none was.
   LayerId layer() const { return layer_; }

@@ -89,6 +89,7 @@ bool is_text_of_json(const Parameter& parameter) {
     case ParameterKind::Counts:
     case ParameterKind::Points:
     case ParameterKind::Records:
+    case ParameterKind::Texts:
       return true;
     default:
       return false;

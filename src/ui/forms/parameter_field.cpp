@@ -322,6 +322,7 @@ std::unique_ptr<ParameterField> make_parameter_field(const Parameter& parameter,
       return std::make_unique<ObjectsField>(parameter, place);
     case ParameterKind::Numbers:
     case ParameterKind::Counts:
+    case ParameterKind::Texts:
       return std::make_unique<ListLine>(parameter, place);
     case ParameterKind::Points:
     case ParameterKind::Records:

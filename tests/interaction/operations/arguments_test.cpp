@@ -20,6 +20,7 @@ const std::vector<Parameter>& parameters() {
        .only_for = {"ball"}},
       {.name = "count", .kind = ParameterKind::Count, .fallback = 3, .least = 1},
       {.name = "name", .kind = ParameterKind::Text},
+      {.name = "cells", .kind = ParameterKind::Texts},
       {.name = "open", .kind = ParameterKind::Flag, .fallback = false},
       {.name = "vertices", .kind = ParameterKind::Counts, .least = 0},
       {.name = "weights", .kind = ParameterKind::Numbers},
@@ -46,6 +47,16 @@ class ArgumentsTest : public ::testing::Test {
   world::World world_;
   world::IdSource ids_;
 };
+
+TEST_F(ArgumentsTest, TakeTextsAloneOrInAList) {
+  const Value several = json(R"({"cells": ["arm", "hand"]})"), one = json(R"({"cells": "arm"})");
+  EXPECT_EQ(Arguments::check(parameters(), *several.fields(), world_)->texts("cells"),
+            (std::vector<std::string>{"arm", "hand"}));
+  EXPECT_EQ(Arguments::check(parameters(), *one.fields(), world_)->texts("cells"),
+            std::vector<std::string>{"arm"});
+  EXPECT_EQ(error(R"({"cells": []})"), "'cells' must be a text, or a list of texts");
+  EXPECT_EQ(error(R"({"cells": ["arm", 3]})"), "'cells' must be a text, or a list of texts");
+}
 
 TEST_F(ArgumentsTest, AreWhatIsSaidOrWhatThereIsToFallBackTo) {
   const world::ObjectId leg = world::add_object(world_, ids_, "leg", world::box(1.0));

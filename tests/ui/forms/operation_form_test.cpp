@@ -38,6 +38,8 @@ Value value_for(const Parameter& parameter, const std::string& object) {
       return number;
     case ParameterKind::Text:
       return "some words";
+    case ParameterKind::Texts:
+      return Value::List{"some words"};
     case ParameterKind::Picture:
       return "/nowhere/wood.png";
     case ParameterKind::Choice:

@@ -1,0 +1,52 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "animation/files/project_text.h"
+
+namespace icome::animation {
+
+/// A project of a file, and what was done to it since the file was written and would be lost with the program:
+/// the journal beside it has that.
+struct ProjectRead {
+  Project project;
+  std::size_t recovered = 0;  ///< edits of the journal that are in `project` and not in the file
+  std::string note;           ///< about the journal, for people; mostly empty
+};
+
+/// Reads a .cutout file, and what a journal beside it adds. Fails with file and line.
+base::Result<ProjectRead> read_project_file(const std::filesystem::path& path);
+
+/// Writes a .cutout file, which appears whole or not at all.
+base::Result<void> write_project_file(const Project& project, const std::filesystem::path& path);
+
+/// The journal of a file: ".boat.cutout.journal" beside "boat.cutout".
+std::filesystem::path journal_of(const std::filesystem::path& file);
+
+/// Edits of an open project on the disk, as they are made, so that a crash loses nothing: a line each, after the
+/// hash of the text that they start from.
+class ProjectJournal {
+ public:
+  /// Begins a new journal of a file with this content; an old one is replaced. Fails with the path.
+  static base::Result<ProjectJournal> create(const std::filesystem::path& file, const Project& saved);
+  /// Goes on with the journal that the project was just read with.
+  static base::Result<ProjectJournal> reopen(const std::filesystem::path& file);
+
+  ProjectJournal(ProjectJournal&&) noexcept;
+  ProjectJournal& operator=(ProjectJournal&&) noexcept;
+  ~ProjectJournal();
+
+  /// Adds a line, and waits until the disk has it. Fails with the path and the system's message.
+  base::Result<void> add(const ProjectEdit& edit);
+  /// Takes the journal away: the project is saved, or given up.
+  void remove();
+
+ private:
+  struct File;
+  explicit ProjectJournal(std::unique_ptr<File> file);
+  std::unique_ptr<File> file_;
+};
+
+}  // namespace icome::animation

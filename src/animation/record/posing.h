@@ -1,0 +1,41 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "animation/project/project_edit.h"
+
+namespace icome::animation {
+
+/// The edit that keys, at one frame, all channels in which the states differ from what the project has there:
+/// what pose to pose does with cells that a hand has moved. Cells on locked layers are left alone. `ease` is the
+/// way on from there.
+ProjectEdit keyed_pose(const Project& project, int frame, const std::map<CellId, CellState>& states,
+                       Ease ease = Ease::Straight);
+
+/// Takes down what cells do while an animation runs, to be put into it as one edit. Only cells of `layer` are
+/// taken down, or all where it is none; locked layers are left alone.
+class Recording {
+ public:
+  Recording(Project project, std::optional<LayerId> layer) : project_(std::move(project)), layer_(layer) {}
+
+  /// Cells as they were moved at a frame; of several at one frame the last counts. Frames that were passed over
+  /// get keys between.
+  void take(int frame, const std::map<CellId, CellState>& moved);
+
+  bool is_empty() const { return cells_.empty(); }
+  /// Overdub: for each cell that was moved, keys of place, angle and scale at each frame from the first to the
+  /// last at which it was moved take the place of what was there. Keys that lie within `tolerance` (px, or rad
+  /// of a turn, or a share of the scale) of the way between others are left out; 0: none are.
+  ProjectEdit finish(double tolerance) const;
+
+ private:
+  Project project_;  // as it was when the recording began
+  std::optional<LayerId> layer_;
+  std::map<CellId, std::map<int, CellState>> cells_;
+};
+
+/// The track without keys that lie within `tolerance` of the straight way between others, at all frames.
+Track thinned(const Track& track, double tolerance);
+
+}  // namespace icome::animation

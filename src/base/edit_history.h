@@ -1,0 +1,66 @@
+#pragma once
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "base/result.h"
+
+namespace icome::base {
+
+/// A value with the edits that were done to it, so that they can be taken back and done again. Edits are
+/// applied by `Result<Edit> apply_edit(Value&, const Edit&)` beside the value, which gives the edit that takes
+/// one back, and changes nothing where it fails.
+template <typename Value, typename Edit>
+class EditHistory {
+ public:
+  explicit EditHistory(Value value) : value_(std::move(value)) {}
+
+  const Value& value() const { return value_; }
+
+  /// Hears each edit that is applied, also those of undo and redo, and may refuse it.
+  using Sink = std::function<Result<void>(const Edit& edit)>;
+  void set_sink(Sink sink) { sink_ = std::move(sink); }
+
+  /// Applies the edit as one step that can be undone; what was undone before is forgotten. Fails as
+  /// apply_edit() and the sink do.
+  Result<void> perform(const Edit& edit) {
+    auto back = apply_to_all(edit);
+    if (!back) return tl::unexpected(back.error());
+    undo_.push_back(std::move(*back));
+    redo_.clear();
+    return {};
+  }
+
+  /// False where there is nothing to take back, or to do again, or the sink refuses.
+  bool undo() { return step(undo_, redo_); }
+  bool redo() { return step(redo_, undo_); }
+  bool can_undo() const { return !undo_.empty(); }
+  bool can_redo() const { return !redo_.empty(); }
+
+ private:
+  bool step(std::vector<Edit>& from, std::vector<Edit>& to) {
+    if (from.empty()) return false;
+    auto back = apply_to_all(from.back());
+    if (!back) return false;
+    from.pop_back();
+    to.push_back(std::move(*back));
+    return true;
+  }
+
+  /// Applies the edit here and tells the sink, or neither.
+  Result<Edit> apply_to_all(const Edit& edit) {
+    auto back = apply_edit(value_, edit);
+    if (!back || !sink_) return back;
+    const auto taken = sink_(edit);
+    if (taken) return back;
+    (void)apply_edit(value_, *back);
+    return tl::unexpected(taken.error());
+  }
+
+  Value value_;
+  std::vector<Edit> undo_;
+  std::vector<Edit> redo_;
+  Sink sink_;
+};
+
+}  // namespace icome::base
