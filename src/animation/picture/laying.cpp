@@ -171,6 +171,25 @@ void lay_rim(const Pixels& picture, const LaidRow& row, const Span& span, const 
   }
 }
 
+#if defined(__SSE2__)
+/// Weights as the processor multiplies by them, which takes longer to make than to look up.
+struct MixWeights {
+  __m128i of_one[kWeightOne + 1];  // eight of a weight
+  __m128i of_two[kWeightOne];      // four pairs of what one and what the next has
+};
+
+const MixWeights& mix_weights() {
+  static const MixWeights made = [] {
+    MixWeights weights{};
+    for (std::uint32_t i = 0; i <= kWeightOne; ++i) weights.of_one[i] = _mm_set1_epi16(short(i));
+    for (std::uint32_t i = 0; i < kWeightOne; ++i)
+      weights.of_two[i] = _mm_set1_epi32(int(kWeightOne - i) | int(i << 16U));
+    return weights;
+  }();
+  return made;
+}
+#endif
+
 void lay_inner(const Pixels& picture, const LaidRow& row, const Span& span, const ExactLook& look,
                std::uint32_t* onto) {
   if (span.begin >= span.end) return;
@@ -183,6 +202,7 @@ void lay_inner(const Pixels& picture, const LaidRow& row, const Span& span, cons
     const __m128i opacity = _mm_set1_epi16(short(look.opacity));
     const __m128i half = _mm_set1_epi16(128), all = _mm_set1_epi16(255);
     const __m128i half_sum = _mm_set1_epi32(1 << (2 * kWeightBits - 1));
+    const MixWeights& weights = mix_weights();
     const bool is_faint = look.opacity != kOpaque;
     const std::uint32_t* const words = picture.words.data();
     const std::ptrdiff_t width = picture.width;
@@ -192,15 +212,16 @@ void lay_inner(const Pixels& picture, const LaidRow& row, const Span& span, cons
       const auto pair = [&](const std::uint32_t* two) {
         return _mm_unpacklo_epi8(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(two)), zero);
       };
-      const __m128i sum =
-          _mm_add_epi16(_mm_mullo_epi16(pair(corner), _mm_set1_epi16(short(kWeightOne - down))),
-                        _mm_mullo_epi16(pair(corner + width), _mm_set1_epi16(short(down))));
+      const __m128i sum = _mm_add_epi16(_mm_mullo_epi16(pair(corner), weights.of_one[kWeightOne - down]),
+                                        _mm_mullo_epi16(pair(corner + width), weights.of_one[down]));
       const __m128i beside = _mm_unpacklo_epi16(sum, _mm_srli_si128(sum, 8));
-      const __m128i weights = _mm_set1_epi32(int(kWeightOne - right) | int(right << 16U));
-      const __m128i mixed =
-          _mm_srli_epi32(_mm_add_epi32(_mm_madd_epi16(beside, weights), half_sum), 2 * kWeightBits);
+      const __m128i mixed = _mm_srli_epi32(
+          _mm_add_epi32(_mm_madd_epi16(beside, weights.of_two[right]), half_sum), 2 * kWeightBits);
       __m128i above = _mm_packs_epi32(mixed, zero);
       if (is_faint) above = _mm_srli_epi16(_mm_add_epi16(_mm_mullo_epi16(above, opacity), half), 8);
+      const auto word = std::uint32_t(_mm_cvtsi128_si32(_mm_packus_epi16(above, zero)));
+      if (alpha_of(word) == 255) onto[x] = word;
+      if (alpha_of(word) - 1 >= 254) continue;  // it hides all or nothing
       const __m128i clear = _mm_sub_epi16(all, _mm_shufflelo_epi16(above, _MM_SHUFFLE(3, 3, 3, 3)));
       const __m128i below = _mm_unpacklo_epi8(_mm_cvtsi32_si128(int(onto[x])), zero);
       const __m128i product = _mm_add_epi16(_mm_mullo_epi16(below, clear), half);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <numeric>
 
 #include "base/parallel.h"
 
@@ -11,7 +11,16 @@ namespace {
 
 constexpr double kLeastShown = 0.1;  // opacity at a point, of a cell that is taken there
 constexpr int kStandInSide = 128;    // px, of the picture for one that cannot be shown
-constexpr std::size_t kStripRows = 64;
+constexpr int kStripRows = 16;
+constexpr std::size_t kStripsOfThread = 4;  // at least
+
+/// The numbers below `count` in an order in which every run of them is from all over, so that threads have
+/// alike to do.
+int spread(int i, int count) {
+  int step = std::max(1, int(0.618 * count));
+  while (std::gcd(step, count) != 1) ++step;
+  return int(std::int64_t(i) * step % count);
+}
 
 /// A turn, counter-clockwise as seen, where y goes down.
 Eigen::Matrix2d seen_turn(double angle) { return Eigen::Rotation2Dd(-angle).toRotationMatrix(); }
@@ -131,12 +140,16 @@ void draw_frame(const Project& project, const CellStates& states, CellPictures& 
   const std::vector<Laid> cells = laid_cells(project, states, pictures, view);
   const std::uint32_t ground =
       options.backdrop == Backdrop::Everywhere ? word_of(project.stage.background) : 0;
-  base::parallel_for(std::size_t(onto.height), kStripRows, [&](std::size_t begin, std::size_t end) {
-    const Rows rows{int(begin), int(end)};
-    for (int y = rows.begin; y < rows.end; ++y) std::fill_n(onto.row(y), onto.width, ground);
-    if (backdrop) lay(backdrop->raster->pixels, backdrop->onto_from_raster, {}, onto, rows);
-    for (const LaidSkin& skin : skins) draw_skin(skin, onto, rows);
-    for (const Laid& cell : cells) lay(cell.raster->pixels, cell.onto_from_raster, cell.look, onto, rows);
+  const int strips = (onto.height + kStripRows - 1) / kStripRows;
+  base::parallel_for(std::size_t(strips), kStripsOfThread, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const int first = kStripRows * spread(int(i), strips);
+      const Rows rows{first, std::min(first + kStripRows, onto.height)};
+      for (int y = rows.begin; y < rows.end; ++y) std::fill_n(onto.row(y), onto.width, ground);
+      if (backdrop) lay(backdrop->raster->pixels, backdrop->onto_from_raster, {}, onto, rows);
+      for (const LaidSkin& skin : skins) draw_skin(skin, onto, rows);
+      for (const Laid& cell : cells) lay(cell.raster->pixels, cell.onto_from_raster, cell.look, onto, rows);
+    }
   });
 }
 
