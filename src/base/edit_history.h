@@ -8,8 +8,8 @@
 namespace icome::base {
 
 /// A value with the edits that were done to it, so that they can be taken back and done again. Edits are
-/// applied by `Result<Edit> apply_edit(Value&, const Edit&)` beside the value, which gives the edit that takes
-/// one back, and changes nothing where it fails.
+/// applied by `Result<Edit> apply_edit(Value&, const Edit&)` beside the value, which gives the edit that
+/// takes one back, and changes nothing where it fails.
 template <typename Value, typename Edit>
 class EditHistory {
  public:

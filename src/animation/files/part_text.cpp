@@ -46,7 +46,8 @@ bool are_numbers(const io::TomlNode& node, std::size_t count) {
 }
 
 bool is_frame(const io::TomlNode& node) {
-  return is_number(node) && node.number == std::floor(node.number) && std::abs(node.number) <= kGreatestNumber;
+  return is_number(node) && node.number == std::floor(node.number) &&
+         std::abs(node.number) <= kGreatestNumber;
 }
 
 std::optional<Vector2> read_place(io::KeyReader& keys, const std::string& key) {
@@ -78,8 +79,9 @@ CellId read_cell(io::KeyReader& keys, const std::string& key, const CellOfWords&
   const CellId cell = node == nullptr ? CellId{} : cells(*node);
   if (!cell) {
     const std::string said = node != nullptr ? node->text : "";
-    keys.problems().add(keys.place_of(key), said.empty() ? fmt::format("{}: a cell's name is missing.", key)
-                                                         : fmt::format("{}: there is no cell '{}'.", key, said));
+    keys.problems().add(keys.place_of(key), said.empty()
+                                                ? fmt::format("{}: a cell's name is missing.", key)
+                                                : fmt::format("{}: there is no cell '{}'.", key, said));
   }
   return cell;
 }
@@ -224,9 +226,12 @@ const char* name_of(Channel channel) {
 }
 
 const io::Words<Channel>& channel_words() {
-  static const io::Words<Channel> kWords = {{"x", Channel::X},         {"y", Channel::Y},
-                                            {"angle", Channel::Angle}, {"scale", Channel::Scale},
-                                            {"opacity", Channel::Opacity}, {"picture", Channel::Picture}};
+  static const io::Words<Channel> kWords = {{"x", Channel::X},
+                                            {"y", Channel::Y},
+                                            {"angle", Channel::Angle},
+                                            {"scale", Channel::Scale},
+                                            {"opacity", Channel::Opacity},
+                                            {"picture", Channel::Picture}};
   return kWords;
 }
 
@@ -277,8 +282,8 @@ void write_state(const CellState& state, std::span<const Channel> channels, io::
 void read_state(io::KeyReader& keys, std::span<const Channel> channels, CellState& state) {
   for (const Channel channel : channels) {
     const double unit = channel == Channel::Angle ? kDegrees : 1.0;
-    const std::string key = name_of(channel);
-    if (keys.has(key)) set_channel(state, channel, keys.number(key, 0, -kFarthest, kFarthest) * unit);
+    const double otherwise = channel_of(state, channel) / unit;
+    set_channel(state, channel, keys.number(name_of(channel), otherwise, -kFarthest, kFarthest) * unit);
   }
 }
 
@@ -385,11 +390,21 @@ Constraint read_constraint(io::KeyReader& keys, const CellOfWords& cells) {
   keys.require("kind", "kind = \"joint\", \"distance\", \"chain\", \"path\" or \"axis\"");
   Constraint constraint;
   switch (keys.word("kind", kKinds, ConstraintKind::Distance)) {
-    case ConstraintKind::Distance: constraint.what = read_distance(keys, cells); break;
-    case ConstraintKind::Joint: constraint.what = read_joint(keys, cells); break;
-    case ConstraintKind::Chain: constraint.what = read_chain(keys, cells); break;
-    case ConstraintKind::Path: constraint.what = read_path(keys, cells); break;
-    case ConstraintKind::Axis: constraint.what = read_axis(keys, cells); break;
+    case ConstraintKind::Distance:
+      constraint.what = read_distance(keys, cells);
+      break;
+    case ConstraintKind::Joint:
+      constraint.what = read_joint(keys, cells);
+      break;
+    case ConstraintKind::Chain:
+      constraint.what = read_chain(keys, cells);
+      break;
+    case ConstraintKind::Path:
+      constraint.what = read_path(keys, cells);
+      break;
+    case ConstraintKind::Axis:
+      constraint.what = read_axis(keys, cells);
+      break;
   }
   return constraint;
 }

@@ -9,10 +9,10 @@
 
 namespace icome::animation {
 
-// The parts that projects and edits have in common, as TOML. Cells are named in projects and numbered in edits,
-// whose names may change.
+// The parts that projects and edits have in common, as TOML. Cells are named in projects and numbered in
+// edits, whose names may change.
 
-using CellWords = std::function<std::string(CellId)>;  // TOML that means a cell
+using CellWords = std::function<std::string(CellId)>;            // TOML that means a cell
 using CellOfWords = std::function<CellId(const io::TomlNode&)>;  // no id: there is no such cell
 
 std::string number_of_cell(CellId id);

@@ -1,19 +1,21 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
 
 #include "animation/files/project_text.h"
 
 namespace icome::animation {
 
-/// A project of a file, and what was done to it since the file was written and would be lost with the program:
-/// the journal beside it has that.
+/// A project of a file, and what was done to it since the file was written and would be lost with the
+/// program: the journal beside it has that.
 struct ProjectRead {
   Project project;
-  std::size_t recovered = 0;  ///< edits of the journal that are in `project` and not in the file
-  std::string note;           ///< about the journal, for people; mostly empty
+  std::size_t recovered = 0;         ///< edits of the journal that are in `project` and not in the file
+  std::uint64_t journal_length = 0;  ///< bytes of the journal that were whole; 0: there is none that fits
+  std::string note;                  ///< about the journal, for people; mostly empty
 };
 
 /// Reads a .cutout file, and what a journal beside it adds. Fails with file and line.
@@ -25,14 +27,15 @@ base::Result<void> write_project_file(const Project& project, const std::filesys
 /// The journal of a file: ".boat.cutout.journal" beside "boat.cutout".
 std::filesystem::path journal_of(const std::filesystem::path& file);
 
-/// Edits of an open project on the disk, as they are made, so that a crash loses nothing: a line each, after the
-/// hash of the text that they start from.
+/// Edits of an open project on the disk, as they are made, so that a crash loses nothing: a line each, after
+/// the hash of the text that they start from.
 class ProjectJournal {
  public:
-  /// Begins a new journal of a file with this content; an old one is replaced. Fails with the path.
-  static base::Result<ProjectJournal> create(const std::filesystem::path& file, const Project& saved);
-  /// Goes on with the journal that the project was just read with.
-  static base::Result<ProjectJournal> reopen(const std::filesystem::path& file);
+  /// Begins the journal of a file, as it lies on the disk, that was read or written just now: goes on after
+  /// `length` bytes of the one that is there (ProjectRead::journal_length), or begins a new one; one of
+  /// another version of the file is moved aside, to a name that ends with ".old". Fails with the path, and
+  /// where another program has the file open.
+  static base::Result<ProjectJournal> open(const std::filesystem::path& file, std::uint64_t length = 0);
 
   ProjectJournal(ProjectJournal&&) noexcept;
   ProjectJournal& operator=(ProjectJournal&&) noexcept;
@@ -46,6 +49,7 @@ class ProjectJournal {
  private:
   struct File;
   explicit ProjectJournal(std::unique_ptr<File> file);
+  base::Result<void> write(std::string_view bytes);
   std::unique_ptr<File> file_;
 };
 

@@ -128,8 +128,8 @@ class ProjectReader {
     if (node == nullptr) return;
     for (const io::TomlNode& mark : node->elements) {
       const bool fits = mark.kind == io::TomlNode::Kind::Array && mark.elements.size() == 2 &&
-                        mark.elements[0].kind == io::TomlNode::Kind::Number &&
-                        mark.elements[0].number >= 0 && mark.elements[0].number < kLongestAnimation &&
+                        mark.elements[0].kind == io::TomlNode::Kind::Number && mark.elements[0].number >= 0 &&
+                        mark.elements[0].number < kLongestAnimation &&
                         mark.elements[1].kind == io::TomlNode::Kind::String;
       if (fits)
         put(mark.place, ChangeMark{int(mark.elements[0].number), mark.elements[1].text});
@@ -261,20 +261,41 @@ struct ChangeWriting {
 };
 
 enum class ChangeKind : std::uint8_t {
-  PutLayer, TakeLayer, ChangeLayer, MoveLayer, PutCell, TakeCell, ChangeCell, MoveCell,
-  ChangeKeys, ChangeStage, ChangeSound, ChangeMark, PutConstraint, TakeConstraint, ChangeMapping, SmoothHands,
+  PutLayer,
+  TakeLayer,
+  ChangeLayer,
+  MoveLayer,
+  PutCell,
+  TakeCell,
+  ChangeCell,
+  MoveCell,
+  ChangeKeys,
+  ChangeStage,
+  ChangeSound,
+  ChangeMark,
+  PutConstraint,
+  TakeConstraint,
+  ChangeMapping,
+  SmoothHands,
 };
 
 const io::Words<ChangeKind>& change_words() {
-  static const io::Words<ChangeKind> kWords = {
-      {"put_layer", ChangeKind::PutLayer},           {"take_layer", ChangeKind::TakeLayer},
-      {"change_layer", ChangeKind::ChangeLayer},     {"move_layer", ChangeKind::MoveLayer},
-      {"put_cell", ChangeKind::PutCell},             {"take_cell", ChangeKind::TakeCell},
-      {"change_cell", ChangeKind::ChangeCell},       {"move_cell", ChangeKind::MoveCell},
-      {"change_keys", ChangeKind::ChangeKeys},       {"change_stage", ChangeKind::ChangeStage},
-      {"change_sound", ChangeKind::ChangeSound},     {"change_mark", ChangeKind::ChangeMark},
-      {"put_constraint", ChangeKind::PutConstraint}, {"take_constraint", ChangeKind::TakeConstraint},
-      {"change_mapping", ChangeKind::ChangeMapping}, {"smooth_hands", ChangeKind::SmoothHands}};
+  static const io::Words<ChangeKind> kWords = {{"put_layer", ChangeKind::PutLayer},
+                                               {"take_layer", ChangeKind::TakeLayer},
+                                               {"change_layer", ChangeKind::ChangeLayer},
+                                               {"move_layer", ChangeKind::MoveLayer},
+                                               {"put_cell", ChangeKind::PutCell},
+                                               {"take_cell", ChangeKind::TakeCell},
+                                               {"change_cell", ChangeKind::ChangeCell},
+                                               {"move_cell", ChangeKind::MoveCell},
+                                               {"change_keys", ChangeKind::ChangeKeys},
+                                               {"change_stage", ChangeKind::ChangeStage},
+                                               {"change_sound", ChangeKind::ChangeSound},
+                                               {"change_mark", ChangeKind::ChangeMark},
+                                               {"put_constraint", ChangeKind::PutConstraint},
+                                               {"take_constraint", ChangeKind::TakeConstraint},
+                                               {"change_mapping", ChangeKind::ChangeMapping},
+                                               {"smooth_hands", ChangeKind::SmoothHands}};
   return kWords;
 }
 
@@ -334,26 +355,39 @@ ProjectChange read_change(io::KeyReader& keys) {
   switch (keys.word("do", change_words(), ChangeKind::SmoothHands)) {
     case ChangeKind::PutLayer:
       return PutLayer{read_number<LayerId>(keys, "id"), read_list_place(keys), read_layer(keys)};
-    case ChangeKind::TakeLayer: return TakeLayer{read_number<LayerId>(keys, "id")};
-    case ChangeKind::ChangeLayer: return ChangeLayer{read_number<LayerId>(keys, "id"), read_layer(keys)};
-    case ChangeKind::MoveLayer: return MoveLayer{read_number<LayerId>(keys, "id"), read_list_place(keys)};
-    case ChangeKind::PutCell: return read_new_cell(keys);
-    case ChangeKind::TakeCell: return TakeCell{read_number<CellId>(keys, "id")};
-    case ChangeKind::ChangeCell: return ChangeCell{read_number<CellId>(keys, "id"), read_look(keys)};
+    case ChangeKind::TakeLayer:
+      return TakeLayer{read_number<LayerId>(keys, "id")};
+    case ChangeKind::ChangeLayer:
+      return ChangeLayer{read_number<LayerId>(keys, "id"), read_layer(keys)};
+    case ChangeKind::MoveLayer:
+      return MoveLayer{read_number<LayerId>(keys, "id"), read_list_place(keys)};
+    case ChangeKind::PutCell:
+      return read_new_cell(keys);
+    case ChangeKind::TakeCell:
+      return TakeCell{read_number<CellId>(keys, "id")};
+    case ChangeKind::ChangeCell:
+      return ChangeCell{read_number<CellId>(keys, "id"), read_look(keys)};
     case ChangeKind::MoveCell:
-      return MoveCell{read_number<CellId>(keys, "id"), read_number<LayerId>(keys, "layer"), read_list_place(keys)};
-    case ChangeKind::ChangeKeys: return read_keys_change(keys);
-    case ChangeKind::ChangeStage: return ChangeStage{read_stage(keys)};
+      return MoveCell{read_number<CellId>(keys, "id"), read_number<LayerId>(keys, "layer"),
+                      read_list_place(keys)};
+    case ChangeKind::ChangeKeys:
+      return read_keys_change(keys);
+    case ChangeKind::ChangeStage:
+      return ChangeStage{read_stage(keys)};
     case ChangeKind::ChangeSound:
       return ChangeSound{keys.has("file") ? std::optional(read_sound(keys)) : std::nullopt};
     case ChangeKind::ChangeMark: {
       const int frame = keys.whole("frame", 0, 0, kGreatestNumber);
       return ChangeMark{frame, keys.has("text") ? std::optional(keys.plain("text")) : std::nullopt};
     }
-    case ChangeKind::PutConstraint: return read_new_constraint(keys);
-    case ChangeKind::TakeConstraint: return TakeConstraint{read_number<ConstraintId>(keys, "id")};
-    case ChangeKind::ChangeMapping: return read_mapping_change(keys);
-    case ChangeKind::SmoothHands: return SmoothHands{keys.flag("smooth", false)};
+    case ChangeKind::PutConstraint:
+      return read_new_constraint(keys);
+    case ChangeKind::TakeConstraint:
+      return TakeConstraint{read_number<ConstraintId>(keys, "id")};
+    case ChangeKind::ChangeMapping:
+      return read_mapping_change(keys);
+    case ChangeKind::SmoothHands:
+      return SmoothHands{keys.flag("smooth", false)};
   }
   return SmoothHands{};
 }

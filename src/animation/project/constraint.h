@@ -41,7 +41,7 @@ struct DistanceLimit {
 struct Joint {
   CellId parent, child;
   PointOnCell on_parent = Vector2::Zero(), on_child = Vector2::Zero();
-  std::optional<AngleLimits> limits;  ///< of the child's angle less the parent's
+  std::optional<AngleLimits> limits = std::nullopt;  ///< of the child's angle less the parent's
 
   bool operator==(const Joint&) const = default;
 };

@@ -1,5 +1,7 @@
 #include "animation/project/project.h"
 
+#include <cmath>
+
 namespace icome::animation {
 
 Project::Project() {
@@ -92,6 +94,19 @@ void set_channel(CellState& state, Channel channel, double value) {
       state.picture = int(value);
       break;
   }
+}
+
+Vector2 on_stage(const Cell& cell, const CellState& state, const PointOnCell& point) {
+  const double cosine = std::cos(state.angle), sine = std::sin(state.angle);
+  const Vector2 way = state.scale * (point - cell.pivot);
+  return state.place + Vector2(cosine * way.x() + sine * way.y(), cosine * way.y() - sine * way.x());
+}
+
+PointOnCell on_cell(const Cell& cell, const CellState& state, const Vector2& place) {
+  if (state.scale == 0) return cell.pivot;
+  const double cosine = std::cos(state.angle), sine = std::sin(state.angle);
+  const Vector2 way = (place - state.place) / state.scale;
+  return cell.pivot + Vector2(cosine * way.x() - sine * way.y(), sine * way.x() + cosine * way.y());
 }
 
 std::vector<CellId> cells_of(const Constraint& constraint) {

@@ -126,4 +126,9 @@ CellState state_at(const Cell& cell, double frame);
 double channel_of(const CellState& state, Channel channel);
 void set_channel(CellState& state, Channel channel, double value);
 
+/// The place on the stage (px) of a point of a cell, and the other way round; a cell of scale 0 is all at its
+/// pivot.
+Vector2 on_stage(const Cell& cell, const CellState& state, const PointOnCell& point);
+PointOnCell on_cell(const Cell& cell, const CellState& state, const Vector2& place);
+
 }  // namespace icome::animation

@@ -20,9 +20,12 @@ std::string complaint_about_value(Channel channel, double value, std::size_t pic
     case Channel::X:
     case Channel::Y:
       return is_near(value, kFarthest) ? "" : fmt::format("a place is at most {} px away", kFarthest);
-    case Channel::Angle: return is_near(value, 1e6) ? "" : "an angle is too large";
-    case Channel::Scale: return is_near(value, 1e4) ? "" : "a scale is -10,000 to 10,000";
-    case Channel::Opacity: return value >= 0 && value <= 1 ? "" : "an opacity is 0 to 1";
+    case Channel::Angle:
+      return is_near(value, 1e6) ? "" : "an angle is too large";
+    case Channel::Scale:
+      return is_near(value, 1e4) ? "" : "a scale is -10,000 to 10,000";
+    case Channel::Opacity:
+      return value >= 0 && value <= 1 ? "" : "an opacity is 0 to 1";
     case Channel::Picture:
       if (value == std::floor(value) && value >= -1 && value < double(std::max<std::size_t>(pictures, 1)))
         return "";
@@ -67,6 +70,11 @@ std::string complaint_about_cell(const Cell& cell) {
     if (std::string why = complaint_about_keys(channel, keys, cell.pictures.size()); !why.empty()) return why;
   }
   return "";
+}
+
+bool may_be_camera(const CellLook& look) {
+  return look.name == kCameraName && look.pictures.empty() && look.pivot == Vector2::Zero() &&
+         look.rest.opacity == 1 && look.rest.picture == 0;
 }
 
 std::string complaint_about_stage(const Stage& stage) {
@@ -257,8 +265,8 @@ class ProjectApplying {
     Cell* const cell = find(part.id);
     if (cell == nullptr) return base::fail(no_cell(part.id));
     if (std::string why = complaint_about_look(part.look); !why.empty()) return base::fail(why);
-    if (part.id == kCamera && (part.look.name != kCameraName || !part.look.pictures.empty()))
-      return base::fail("the camera keeps its name and has no pictures");
+    if (part.id == kCamera && !may_be_camera(part.look))
+      return base::fail("the camera keeps its name, and has a place, an angle and a scale only");
     if (auto named = check_cell_name(part.id, part.look.name); !named) return tl::unexpected(named.error());
     const Track& shown = cell->tracks[std::size_t(Channel::Picture)];
     if (std::string why = complaint_about_keys(Channel::Picture, shown, part.look.pictures.size());
@@ -368,7 +376,8 @@ class ProjectApplying {
     if (part.mapping) {
       const bool by_place = part.mapping->mode == MappingMode::Nearest;
       if (part.mapping->triangle != part.triangle) return base::fail("a mapping is of its own triangle");
-      if (by_place && part.mapping->cell) return base::fail("a triangle that takes the nearest names no cell");
+      if (by_place && part.mapping->cell)
+        return base::fail("a triangle that takes the nearest names no cell");
       if (!by_place && find(part.mapping->cell) == nullptr) return base::fail(no_cell(part.mapping->cell));
     }
     const auto found = std::find_if(project_.mappings.begin(), project_.mappings.end(),
@@ -377,9 +386,8 @@ class ProjectApplying {
     ChangeMapping back = {part.triangle, is_there ? std::optional(*found) : std::nullopt};
     if (is_there) project_.mappings.erase(found);
     if (part.mapping) {
-      const auto place =
-          std::find_if(project_.mappings.begin(), project_.mappings.end(),
-                       [&](const Mapping& m) { return m.triangle > part.triangle; });
+      const auto place = std::find_if(project_.mappings.begin(), project_.mappings.end(),
+                                      [&](const Mapping& m) { return m.triangle > part.triangle; });
       project_.mappings.insert(place, *part.mapping);
     }
     return ProjectChange(std::move(back));

@@ -52,7 +52,7 @@ struct CellLook {
   Vector2 pivot = Vector2::Zero();  ///< px
   CellState rest;
 };
-/// The camera has no pictures and keeps its name.
+/// The camera keeps its name, and has a place, an angle and a scale only.
 struct ChangeCell {
   CellId id;
   CellLook look;
@@ -98,10 +98,9 @@ struct SmoothHands {
 };
 
 /// A part of an edit. A plain value.
-using ProjectChange =
-    std::variant<PutLayer, TakeLayer, ChangeLayer, MoveLayer, PutCell, TakeCell, ChangeCell, MoveCell,
-                 ChangeKeys, ChangeStage, ChangeSound, ChangeMark, PutConstraint, TakeConstraint,
-                 ChangeMapping, SmoothHands>;
+using ProjectChange = std::variant<PutLayer, TakeLayer, ChangeLayer, MoveLayer, PutCell, TakeCell, ChangeCell,
+                                   MoveCell, ChangeKeys, ChangeStage, ChangeSound, ChangeMark, PutConstraint,
+                                   TakeConstraint, ChangeMapping, SmoothHands>;
 
 /// A change of an animation, the only way in which one changes: a plain value that can be applied and taken
 /// back. Its parts are applied in order, all or none.
@@ -112,7 +111,7 @@ inline constexpr std::size_t kMostLayers = 1000;
 inline constexpr std::size_t kMostCells = 1000;
 inline constexpr std::size_t kMostPictures = 10'000;  // of one cell
 inline constexpr std::size_t kMostConstraints = 10'000;
-inline constexpr double kFarthest = 1e6;                 // px
+inline constexpr double kFarthest = 1e6;               // px
 inline constexpr int kGreatestNumber = 2'000'000'000;  // of ids, and of places in lists
 
 LayerLook look_of(const Layer& layer);

@@ -13,7 +13,7 @@ inline constexpr std::array<Channel, kChannels> kAllChannels = {
     Channel::X, Channel::Y, Channel::Angle, Channel::Scale, Channel::Opacity, Channel::Picture};
 
 inline constexpr std::array<Channel, 4> kCameraChannels = {Channel::X, Channel::Y, Channel::Angle,
-                                                          Channel::Scale};
+                                                           Channel::Scale};
 
 /// The way from a key to the next one: it stays and then jumps; evenly; slowly out and slowly in.
 enum class Ease : std::uint8_t { Hold, Straight, Eased };

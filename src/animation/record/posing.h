@@ -8,8 +8,8 @@
 namespace icome::animation {
 
 /// The edit that keys, at one frame, all channels in which the states differ from what the project has there:
-/// what pose to pose does with cells that a hand has moved. Cells on locked layers are left alone. `ease` is the
-/// way on from there.
+/// what pose to pose does with cells that a hand has moved. Cells on locked layers are left alone. `ease` is
+/// the way on from there.
 ProjectEdit keyed_pose(const Project& project, int frame, const std::map<CellId, CellState>& states,
                        Ease ease = Ease::Straight);
 
@@ -19,14 +19,14 @@ class Recording {
  public:
   Recording(Project project, std::optional<LayerId> layer) : project_(std::move(project)), layer_(layer) {}
 
-  /// Cells as they were moved at a frame; of several at one frame the last counts. Frames that were passed over
-  /// get keys between.
+  /// Cells as they were moved at a frame; of several at one frame the last counts. Frames that were passed
+  /// over get keys between.
   void take(int frame, const std::map<CellId, CellState>& moved);
 
   bool is_empty() const { return cells_.empty(); }
-  /// Overdub: for each cell that was moved, keys of place, angle and scale at each frame from the first to the
-  /// last at which it was moved take the place of what was there. Keys that lie within `tolerance` (px, or rad
-  /// of a turn, or a share of the scale) of the way between others are left out; 0: none are.
+  /// Overdub: for each cell that was moved, keys of place, angle and scale at each frame from the first to
+  /// the last at which it was moved take the place of what was there. Keys that lie within `tolerance` (px,
+  /// or rad of a turn, or a share of the scale) of the way between others are left out; 0: none are.
   ProjectEdit finish(double tolerance) const;
 
  private:

@@ -13,13 +13,13 @@ using interaction::Arguments;
 using ProjectHistory = base::EditHistory<Project, ProjectEdit>;
 
 /// The size of a picture (px). Fails with the file's name where it cannot be read.
-using PictureSize = std::function<base::Result<Vector2>(const std::string& file)>;
+using SizeOfPicture = std::function<base::Result<Vector2>(const std::string& file)>;
 /// The names of the pictures in a folder, relative to the project's, in the order of numbers in names.
 using PicturesIn = std::function<base::Result<std::vector<std::string>>(const std::string& folder)>;
 
 /// The disk as tools see it; names are relative to the project's folder.
 struct ProjectDisk {
-  PictureSize size;
+  SizeOfPicture size;
   PicturesIn pictures;
 };
 
@@ -31,8 +31,8 @@ struct Staging {
   std::string note = {};  ///< a remark for people
 };
 
-/// A named tool for animations: the same in scripts and in the window. All that it does is in the edit that it
-/// makes.
+/// A named tool for animations: the same in scripts and in the window. All that it does is in the edit that
+/// it makes.
 struct AnimationTool {
   interaction::Operation about;  ///< name, title, group, summary and parameters: px, degrees and frames
   base::Result<ProjectEdit> (*plan)(Staging& staging, const Arguments& arguments);
@@ -70,11 +70,11 @@ class AnimationRunner {
 };
 
 // The groups that make up animation_tools().
-std::vector<AnimationTool> stage_tools();       // stage, sound, marks
-std::vector<AnimationTool> layer_tools();       // layers
-std::vector<AnimationTool> cell_tools();        // cells and their pictures
-std::vector<AnimationTool> key_tools();         // keys of cells
-std::vector<AnimationTool> time_tools();        // moving, copying and thinning keys; frames put in and taken out
+std::vector<AnimationTool> stage_tools();  // stage, sound, marks
+std::vector<AnimationTool> layer_tools();  // layers
+std::vector<AnimationTool> cell_tools();   // cells and their pictures
+std::vector<AnimationTool> key_tools();    // keys of cells
+std::vector<AnimationTool> time_tools();   // moving, copying and thinning keys; frames put in and taken out
 std::vector<AnimationTool> constraint_tools();  // joints, distances, chains, paths, axes
 std::vector<AnimationTool> hand_tools();        // triangles
 

@@ -1,0 +1,106 @@
+#include "animation/files/project_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "animation/random_project.h"
+#include "own_folder.h"
+
+namespace icome::animation {
+namespace {
+
+class ProjectFileTest : public ::testing::Test {
+ protected:
+  std::string journal_text() const {
+    std::ifstream file(journal_of(file_));
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void write_journal(const std::string& text) const { std::ofstream(journal_of(file_)) << text; }
+
+  void SetUp() override { std::filesystem::create_directories(file_.parent_path()); }
+  void TearDown() override { std::filesystem::remove_all(file_.parent_path()); }
+
+  std::filesystem::path file_ = own_folder("cutout") / "boat.cutout";
+};
+
+TEST_F(ProjectFileTest, KeepsWhatWasDoneSinceItWasSaved) {
+  Project project;
+  ASSERT_TRUE(write_project_file(project, file_));
+  {
+    auto journal = ProjectJournal::open(file_);
+    ASSERT_TRUE(journal) << journal.error().message;
+    for (const ProjectEdit& edit : {ProjectEdit{PutLayer{LayerId{2}, 0, {.name = "sea"}}},
+                                    ProjectEdit{ChangeStage{{200, 100}}, SmoothHands{true}}}) {
+      ASSERT_TRUE(apply_edit(project, edit));
+      ASSERT_TRUE(journal->add(edit));
+    }
+  }
+  const auto read = read_project_file(file_);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->project, project);
+  EXPECT_EQ(read->recovered, 2U);
+  EXPECT_EQ(read->note, "");
+}
+
+TEST_F(ProjectFileTest, LosesOnlyTheLineThatWasNotWrittenToItsEnd) {
+  Project project;
+  ASSERT_TRUE(write_project_file(project, file_));
+  auto journal = ProjectJournal::open(file_);
+  const ProjectEdit first = {ChangeStage{{200, 100}}}, second = {ChangeStage{{300, 100}}};
+  ASSERT_TRUE(journal->add(first));
+  const std::size_t whole = journal_text().size();
+  ASSERT_TRUE(journal->add(second));
+  const std::string text = journal_text();
+  for (std::size_t length = whole; length < text.size(); ++length) {
+    write_journal(text.substr(0, length));
+    const auto read = read_project_file(file_);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->project.stage.width, 200);
+    EXPECT_EQ(read->journal_length, whole);
+    EXPECT_EQ(read->note.empty(), length == whole) << length;
+  }
+}
+
+TEST_F(ProjectFileTest, GoesOnWithAJournalAfterItsWholePart) {
+  ASSERT_TRUE(write_project_file({}, file_));
+  ASSERT_TRUE(ProjectJournal::open(file_)->add({ChangeStage{{200, 100}}}));
+  write_journal(journal_text() + "edit = [{ do = ");
+  const auto read = read_project_file(file_);
+  ASSERT_TRUE(ProjectJournal::open(file_, read->journal_length)->add({SmoothHands{true}}));
+  const auto again = read_project_file(file_);
+  EXPECT_EQ(again->recovered, 2U);
+  EXPECT_EQ(again->note, "");
+  EXPECT_TRUE(again->project.smooth_hands);
+}
+
+TEST_F(ProjectFileTest, LeavesAJournalOfAnotherVersionAlone) {
+  ASSERT_TRUE(write_project_file({}, file_));
+  ASSERT_TRUE(ProjectJournal::open(file_)->add({SmoothHands{true}}));
+  const std::string old = journal_text();
+  Project other;
+  ASSERT_TRUE(apply_edit(other, {ChangeStage{{200, 100}}}));
+  ASSERT_TRUE(write_project_file(other, file_));
+  const auto read = read_project_file(file_);
+  EXPECT_EQ(read->project, other);
+  EXPECT_EQ(read->recovered, 0U);
+  EXPECT_NE(read->note.find("is a journal of another version"), std::string::npos);
+  ASSERT_TRUE(ProjectJournal::open(file_));
+  std::ifstream kept(journal_of(file_).string() + ".old");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), old);
+}
+
+TEST_F(ProjectFileTest, IsOpenOnlyOnce) {
+  ASSERT_TRUE(write_project_file({}, file_));
+  const auto journal = ProjectJournal::open(file_);
+  const auto second = ProjectJournal::open(file_);
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().message, file_.string() + ": is open in another window already");
+}
+
+TEST_F(ProjectFileTest, SaysWhichFileIsMissing) {
+  EXPECT_NE(read_project_file(file_).error().message.find("boat.cutout"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace icome::animation
