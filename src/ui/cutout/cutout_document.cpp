@@ -87,7 +87,7 @@ void CutoutDocument::take(Project project, const fs::path& folder) {
              if (!size) return tl::unexpected(size.error());
              return base::Vector2(size->width, size->height);
            },
-           .pictures = [this](const std::string& name) { return pictures_in(folder(), name); }};
+           .pictures = [this](const std::string& name) { return pictures_in(this->folder(), name); }};
   runner_ = std::make_unique<animation::AnimationRunner>(std::move(project), disk_);
   runner_->set_sink([this](const ProjectEdit& edit) { return write_down(edit); });
   selection_.clear();
@@ -318,6 +318,21 @@ void CutoutDocument::close() {
   }
   kept_.clear();
   file_.clear();
+}
+
+interaction::Value cutout_command(const char* tool, interaction::Value::Fields fields) {
+  fields.insert(fields.begin(), {"op", tool});
+  return fields;
+}
+
+interaction::Value command_point(const base::Vector2& place) {
+  return interaction::Value::List{place.x(), place.y()};
+}
+
+interaction::Value command_texts(const std::vector<std::string>& texts) {
+  interaction::Value::List list;
+  for (const std::string& text : texts) list.emplace_back(text);
+  return list;
 }
 
 std::vector<fs::path> lost_animations() {

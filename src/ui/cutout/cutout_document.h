@@ -125,6 +125,12 @@ class CutoutDocument {
   std::function<void(const std::string&)> remark_ = [](const std::string&) {};
 };
 
+/// A command of these fields: cutout_command("join", {{"parent", ...}}).
+interaction::Value cutout_command(const char* tool, interaction::Value::Fields fields = {});
+/// A place (px) and a list of texts as commands have them.
+interaction::Value command_point(const base::Vector2& place);
+interaction::Value command_texts(const std::vector<std::string>& texts);
+
 /// Animations that were never saved and whose window is gone without being closed: kept for being recovered.
 std::vector<std::filesystem::path> lost_animations();
 /// Gives one up.

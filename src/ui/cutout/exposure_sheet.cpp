@@ -13,13 +13,13 @@
 namespace icome::ui {
 namespace {
 
-constexpr double kHeads = 44.0;        // pixels, for the names of layers and cells
-constexpr double kLine = 20.0;         // pixels for a frame
-constexpr double kNumbers = 44.0;      // pixels
+constexpr double kSheetHeads = 44.0;        // pixels, for the names of layers and cells
+constexpr double kFrameLine = 20.0;         // pixels for a frame
+constexpr double kFrameNumbers = 44.0;      // pixels
 constexpr double kSoundColumn = 48.0;  // pixels
 constexpr double kMarkColumn = 84.0;   // pixels
 constexpr double kCellColumn = 92.0;   // pixels
-constexpr double kMargin = kNumbers + kSoundColumn + kMarkColumn;
+constexpr double kSheetMargin = kFrameNumbers + kSoundColumn + kMarkColumn;
 
 }  // namespace
 
@@ -55,9 +55,9 @@ void ExposureSheet::refresh() {
 
 void ExposureSheet::follow_frame() {
   const double top = top_of(document_.frame());
-  if (top < kHeads || top + kLine > viewport()->height())
+  if (top < kSheetHeads || top + kFrameLine > viewport()->height())
     verticalScrollBar()->setValue(
-        int(std::lround(document_.frame() * kLine - 0.3 * (viewport()->height() - kHeads))));
+        int(std::lround(document_.frame() * kFrameLine - 0.3 * (viewport()->height() - kSheetHeads))));
   viewport()->update();
 }
 
@@ -67,10 +67,10 @@ void ExposureSheet::show_sound(std::shared_ptr<const SoundShape> shape) {
 }
 
 void ExposureSheet::set_bars() {
-  const double height = viewport()->height() - kHeads, width = viewport()->width() - kMargin;
-  verticalScrollBar()->setRange(0, std::max(0, int(std::ceil(document_.project().stage.length * kLine - height))));
+  const double height = viewport()->height() - kSheetHeads, width = viewport()->width() - kSheetMargin;
+  verticalScrollBar()->setRange(0, std::max(0, int(std::ceil(document_.project().stage.length * kFrameLine - height))));
   verticalScrollBar()->setPageStep(std::max(1, int(height)));
-  verticalScrollBar()->setSingleStep(int(kLine));
+  verticalScrollBar()->setSingleStep(int(kFrameLine));
   horizontalScrollBar()->setRange(0, std::max(0, int(std::ceil(double(columns_.size()) * kCellColumn - width))));
   horizontalScrollBar()->setPageStep(std::max(1, int(width)));
   horizontalScrollBar()->setSingleStep(int(kCellColumn));
@@ -87,25 +87,25 @@ bool ExposureSheet::viewportEvent(QEvent* event) {
 
 // Places.
 
-double ExposureSheet::top_of(int frame) const { return kHeads + frame * kLine - verticalScrollBar()->value(); }
+double ExposureSheet::top_of(int frame) const { return kSheetHeads + frame * kFrameLine - verticalScrollBar()->value(); }
 
 int ExposureSheet::frame_at(double y) const {
-  return int(std::floor((y - kHeads + verticalScrollBar()->value()) / kLine));
+  return int(std::floor((y - kSheetHeads + verticalScrollBar()->value()) / kFrameLine));
 }
 
 double ExposureSheet::left_of(std::size_t column) const {
-  return kMargin + double(column) * kCellColumn - horizontalScrollBar()->value();
+  return kSheetMargin + double(column) * kCellColumn - horizontalScrollBar()->value();
 }
 
 std::optional<std::size_t> ExposureSheet::column_at(double x) const {
-  if (x < kMargin) return std::nullopt;
-  const double column = std::floor((x - kMargin + horizontalScrollBar()->value()) / kCellColumn);
+  if (x < kSheetMargin) return std::nullopt;
+  const double column = std::floor((x - kSheetMargin + horizontalScrollBar()->value()) / kCellColumn);
   if (column < 0 || column >= double(columns_.size())) return std::nullopt;
   return std::size_t(column);
 }
 
 QPointF ExposureSheet::place_of(std::size_t column, int frame) const {
-  return {left_of(column) + 0.5 * kCellColumn, top_of(frame) + 0.5 * kLine};
+  return {left_of(column) + 0.5 * kCellColumn, top_of(frame) + 0.5 * kFrameLine};
 }
 
 /// The column of the leading cell; one behind the last where there is none.
@@ -120,8 +120,8 @@ void ExposureSheet::choose_column(std::size_t column) {
   if (column >= columns_.size()) return;
   document_.select({columns_[column].cell});
   const double left = left_of(column);
-  if (left < kMargin || left + kCellColumn > viewport()->width())
-    horizontalScrollBar()->setValue(int(double(column) * kCellColumn - 0.3 * (viewport()->width() - kMargin)));
+  if (left < kSheetMargin || left + kCellColumn > viewport()->width())
+    horizontalScrollBar()->setValue(int(double(column) * kCellColumn - 0.3 * (viewport()->width() - kSheetMargin)));
 }
 
 void ExposureSheet::expose(CellId cell, int frame, int picture) {
@@ -135,19 +135,19 @@ void ExposureSheet::paintEvent(QPaintEvent* /*event*/) {
   const ThemeColours& theme = colours();
   painter.fillRect(viewport()->rect(), theme.base);
   painter.setRenderHint(QPainter::Antialiasing);
-  const int first = std::max(0, frame_at(kHeads));
+  const int first = std::max(0, frame_at(kSheetHeads));
   const int last = std::min(document_.last_frame(), frame_at(viewport()->height()));
   QColor wash = theme.accent;
   wash.setAlphaF(0.14F);
-  painter.fillRect(QRectF(0, top_of(document_.frame()), viewport()->width(), kLine), wash);
-  painter.setClipRect(QRectF(kMargin, kHeads, viewport()->width() - kMargin, viewport()->height()));
+  painter.fillRect(QRectF(0, top_of(document_.frame()), viewport()->width(), kFrameLine), wash);
+  painter.setClipRect(QRectF(kSheetMargin, kSheetHeads, viewport()->width() - kSheetMargin, viewport()->height()));
   for (std::size_t column = 0; column < columns_.size(); ++column) paint_column(painter, column, first, last);
   painter.setClipping(false);
   paint_margin(painter, first, last);
   paint_heads(painter);
   if (columns_.empty()) {
     painter.setPen(theme.faint);
-    painter.drawText(QRectF(viewport()->rect()).adjusted(kMargin, kHeads, 0, 0), Qt::AlignCenter,
+    painter.drawText(QRectF(viewport()->rect()).adjusted(kSheetMargin, kSheetHeads, 0, 0), Qt::AlignCenter,
                      "Each cell has a column here");
   }
   if (!hasFocus()) return;
@@ -162,11 +162,11 @@ void ExposureSheet::paint_margin(QPainter& painter, int first, int last) {
   const animation::Project& project = document_.project();
   const int second = std::max(1, int(std::lround(project.stage.rate)));
   painter.save();
-  painter.setClipRect(QRectF(0, kHeads, kMargin, viewport()->height()));
+  painter.setClipRect(QRectF(0, kSheetHeads, kSheetMargin, viewport()->height()));
   for (int frame = first; frame <= last; ++frame) {
-    const QRectF line(0, top_of(frame), kMargin, kLine);
+    const QRectF line(0, top_of(frame), kSheetMargin, kFrameLine);
     painter.setPen(frame % second == 0 ? theme.text : theme.faint);
-    painter.drawText(QRectF(0, line.top(), kNumbers - 2.0 * kGrid, kLine), Qt::AlignVCenter | Qt::AlignRight,
+    painter.drawText(QRectF(0, line.top(), kFrameNumbers - 2.0 * kGrid, kFrameLine), Qt::AlignVCenter | Qt::AlignRight,
                      QString::number(frame));
     painter.setPen(frame % second == 0 ? theme.line : theme.grid);
     painter.drawLine(line.topLeft(), QPointF(viewport()->width(), line.top()));
@@ -174,10 +174,10 @@ void ExposureSheet::paint_margin(QPainter& painter, int first, int last) {
       QColor ink = theme.link_text;
       ink.setAlphaF(0.75F);
       painter.setPen(ink);
-      const double middle = kNumbers + 0.5 * kSoundColumn, half = 0.46 * kSoundColumn;
-      for (int y = 0; y < int(kLine); ++y) {
-        const double from = (frame + y / kLine) / project.stage.rate - project.sound->start;
-        const auto [least, greatest] = sound_->within(from, from + 1.0 / kLine / project.stage.rate);
+      const double middle = kFrameNumbers + 0.5 * kSoundColumn, half = 0.46 * kSoundColumn;
+      for (int y = 0; y < int(kFrameLine); ++y) {
+        const double from = (frame + y / kFrameLine) / project.stage.rate - project.sound->start;
+        const auto [least, greatest] = sound_->within(from, from + 1.0 / kFrameLine / project.stage.rate);
         if (least == 0.0F && greatest == 0.0F) continue;
         painter.drawLine(QPointF(middle + std::max(-1.0F, least) * half, line.top() + y),
                          QPointF(middle + std::min(1.0F, greatest) * half, line.top() + y));
@@ -186,31 +186,31 @@ void ExposureSheet::paint_margin(QPainter& painter, int first, int last) {
   }
   for (const animation::Mark& mark : project.marks) {
     if (mark.frame < first || mark.frame > last) continue;
-    const QRectF box(kNumbers + kSoundColumn, top_of(mark.frame), kMarkColumn, kLine);
+    const QRectF box(kFrameNumbers + kSoundColumn, top_of(mark.frame), kMarkColumn, kFrameLine);
     painter.setPen(theme.link_text);
     painter.drawText(box.adjusted(kGrid, 0, -kGrid, 0), Qt::AlignVCenter | Qt::AlignLeft,
                      painter.fontMetrics().elidedText(one_line(mark.text), Qt::ElideRight, int(kMarkColumn) - 8));
   }
   painter.setPen(theme.line);
-  for (const double x : {kNumbers, kNumbers + kSoundColumn, kMargin})
+  for (const double x : {kFrameNumbers, kFrameNumbers + kSoundColumn, kSheetMargin})
     painter.drawLine(QPointF(x, 0), QPointF(x, viewport()->height()));
   painter.restore();
 }
 
 void ExposureSheet::paint_heads(QPainter& painter) {
   const ThemeColours& theme = colours();
-  painter.fillRect(QRectF(0, 0, viewport()->width(), kHeads), theme.window);
+  painter.fillRect(QRectF(0, 0, viewport()->width(), kSheetHeads), theme.window);
   painter.setPen(theme.line);
-  painter.drawLine(QPointF(0, kHeads), QPointF(viewport()->width(), kHeads));
+  painter.drawLine(QPointF(0, kSheetHeads), QPointF(viewport()->width(), kSheetHeads));
   painter.setPen(theme.faint);
-  const double half = 0.5 * kHeads;
-  painter.drawText(QRectF(0, half, kNumbers, half), Qt::AlignCenter, "Frame");
-  painter.drawText(QRectF(kNumbers, half, kSoundColumn, half), Qt::AlignCenter, "Sound");
-  painter.drawText(QRectF(kNumbers + kSoundColumn, half, kMarkColumn, half), Qt::AlignCenter, "Marks");
+  const double half = 0.5 * kSheetHeads;
+  painter.drawText(QRectF(0, half, kFrameNumbers, half), Qt::AlignCenter, "Frame");
+  painter.drawText(QRectF(kFrameNumbers, half, kSoundColumn, half), Qt::AlignCenter, "Sound");
+  painter.drawText(QRectF(kFrameNumbers + kSoundColumn, half, kMarkColumn, half), Qt::AlignCenter, "Marks");
   painter.save();
-  painter.setClipRect(QRectF(kMargin, 0, viewport()->width() - kMargin, kHeads));
+  painter.setClipRect(QRectF(kSheetMargin, 0, viewport()->width() - kSheetMargin, kSheetHeads));
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    const QRectF head(left_of(i), 0, kCellColumn, kHeads);
+    const QRectF head(left_of(i), 0, kCellColumn, kSheetHeads);
     const bool is_selected = document_.is_selected(columns_[i].cell);
     if (is_selected) painter.fillRect(head.adjusted(0, half, 0, 0), theme.selection);
     const bool begins = i == 0 || columns_[i].layer != columns_[i - 1].layer;
@@ -233,13 +233,13 @@ void ExposureSheet::paint_heads(QPainter& painter) {
 void ExposureSheet::paint_column(QPainter& painter, std::size_t column, int first, int last) {
   const animation::Cell* const cell = document_.project().find(columns_[column].cell);
   const double left = left_of(column);
-  if (cell == nullptr || left > viewport()->width() || left + kCellColumn < kMargin) return;
+  if (cell == nullptr || left > viewport()->width() || left + kCellColumn < kSheetMargin) return;
   for (int frame = first; frame <= last; ++frame)
-    paint_box(painter, *cell, frame, QRectF(left, top_of(frame), kCellColumn, kLine), frame == first);
+    paint_box(painter, *cell, frame, QRectF(left, top_of(frame), kCellColumn, kFrameLine), frame == first);
   const bool begins = column == 0 || columns_[column].layer != columns_[column - 1].layer;
   painter.setPen(begins ? colours().line : colours().grid);
-  painter.drawLine(QPointF(left, kHeads), QPointF(left, top_of(last + 1)));
-  painter.drawLine(QPointF(left + kCellColumn, kHeads), QPointF(left + kCellColumn, top_of(last + 1)));
+  painter.drawLine(QPointF(left, kSheetHeads), QPointF(left, top_of(last + 1)));
+  painter.drawLine(QPointF(left + kCellColumn, kSheetHeads), QPointF(left + kCellColumn, top_of(last + 1)));
 }
 
 void ExposureSheet::paint_box(QPainter& painter, const animation::Cell& cell, int frame, const QRectF& box,
@@ -282,25 +282,25 @@ void ExposureSheet::paint_box(QPainter& painter, const animation::Cell& cell, in
 void ExposureSheet::mousePressEvent(QMouseEvent* event) {
   end_typing(false);
   const QPointF at = event->position();
-  if (at.y() >= kHeads) document_.go_to(frame_at(at.y()));
+  if (at.y() >= kSheetHeads) document_.go_to(frame_at(at.y()));
   if (const auto column = column_at(at.x())) choose_column(*column);
 }
 
 void ExposureSheet::mouseMoveEvent(QMouseEvent* event) {
-  if (event->buttons() & Qt::LeftButton && event->position().y() >= kHeads)
+  if (event->buttons() & Qt::LeftButton && event->position().y() >= kSheetHeads)
     document_.go_to(frame_at(event->position().y()));
 }
 
 void ExposureSheet::mouseDoubleClickEvent(QMouseEvent* event) {
   const QPointF at = event->position();
-  if (at.y() < kHeads) return;
-  if (at.x() >= kNumbers + kSoundColumn && at.x() < kMargin)
+  if (at.y() < kSheetHeads) return;
+  if (at.x() >= kFrameNumbers + kSoundColumn && at.x() < kSheetMargin)
     return mark_(std::clamp(frame_at(at.y()), 0, document_.last_frame()));
   if (column_at(at.x())) show_pictures(event->globalPosition().toPoint());
 }
 
 void ExposureSheet::contextMenuEvent(QContextMenuEvent* event) {
-  if (column_at(event->pos().x()) && event->pos().y() >= kHeads) show_pictures(event->globalPos());
+  if (column_at(event->pos().x()) && event->pos().y() >= kSheetHeads) show_pictures(event->globalPos());
 }
 
 /// The list of a cell's pictures.

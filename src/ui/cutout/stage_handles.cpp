@@ -218,40 +218,12 @@ std::vector<Hold> nudged(const CutoutDocument& document, const Vector2& by) {
   return dragged(document, drag, drag.from + by, false);
 }
 
-animation::ProjectEdit moved_pivot(const CutoutDocument& document, CellId id, const Vector2& place) {
+std::optional<interaction::Value> pivot_command(const CutoutDocument& document, CellId id, const Vector2& place) {
   const Cell* const cell = document.project().find(id);
   const auto found = document.shown().find(id);
-  if (cell == nullptr || found == document.shown().end() || id == animation::kCamera) return {};
-  animation::CellLook look = animation::look_of(*cell);
-  look.pivot = animation::stage_from_picture(*cell, found->second).inverse() * place;
-  std::set<int> frames;
-  const auto x = std::size_t(Channel::X), y = std::size_t(Channel::Y);
-  for (const std::size_t channel : {x, y})
-    for (const animation::Key& key : cell->tracks[channel]) frames.insert(key.frame);
-  animation::Tracks tracks = cell->tracks;
-  animation::ProjectEdit edit;
-  if (frames.empty()) {
-    look.rest.place += place - found->second.place;
-  }
-  const auto ease_at = [](const animation::Track& track, int frame) {
-    animation::Ease ease = animation::Ease::Straight;
-    for (const animation::Key& key : track)
-      if (key.frame <= frame) ease = key.ease;
-    return ease;
-  };
-  tracks[x].clear();
-  tracks[y].clear();
-  for (const int frame : frames) {
-    const CellState state = animation::state_at(*cell, frame);
-    const Vector2 there = animation::stage_from_picture(*cell, state) * look.pivot;
-    tracks[x].push_back({frame, there.x(), ease_at(cell->tracks[x], frame)});
-    tracks[y].push_back({frame, there.y(), ease_at(cell->tracks[y], frame)});
-  }
-  edit.push_back(animation::ChangeCell{id, std::move(look)});
-  for (const std::size_t channel : {x, y})
-    if (auto change = track_change(id, Channel(channel), cell->tracks[channel], tracks[channel]))
-      edit.push_back(std::move(*change));
-  return edit;
+  if (cell == nullptr || found == document.shown().end() || id == animation::kCamera) return std::nullopt;
+  const Vector2 pivot = animation::on_cell(*cell, found->second, place);
+  return cutout_command("change-cell", {{"cell", cell->name}, {"pivot", command_point(pivot)}});
 }
 
 }  // namespace icome::ui

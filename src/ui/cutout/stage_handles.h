@@ -46,9 +46,8 @@ std::vector<animation::Hold> dragged(const CutoutDocument& document, const Stage
 /// Wishes for the cells that are selected, moved by so much.
 std::vector<animation::Hold> nudged(const CutoutDocument& document, const animation::Vector2& by);
 
-/// Sets the pivot of a cell to a place of the stage, and keys of its place so that it lies at these, and now,
-/// as it does.
-animation::ProjectEdit moved_pivot(const CutoutDocument& document, CellId cell,
-                                   const animation::Vector2& place);
+/// The command that sets the pivot of a cell to a place of the stage, while its pictures stay where they are.
+std::optional<interaction::Value> pivot_command(const CutoutDocument& document, CellId cell,
+                                                const animation::Vector2& place);
 
 }  // namespace icome::ui

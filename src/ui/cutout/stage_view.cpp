@@ -379,8 +379,9 @@ void StageView::mouseReleaseEvent(QMouseEvent* event) {
   if (contact == Contact::Marquee)
     select_within(QRectF(pressed_, last_).normalized(), event->modifiers() & Qt::ShiftModifier);
   if (contact == Contact::Drag) {
-    if (pivot_ && document_.selection().size() == 1)
-      document_.perform(moved_pivot(document_, document_.selection().front(), *pivot_));
+    const CellId cell = document_.selection().empty() ? CellId() : document_.selection().front();
+    if (const auto command = pivot_ ? pivot_command(document_, cell, *pivot_) : std::nullopt)
+      document_.perform(*command);
     else
       document_.keep();
   }
