@@ -87,7 +87,7 @@ CellId read_cell(io::KeyReader& keys, const std::string& key, const CellOfWords&
 }
 
 template <typename Meaning>
-std::string_view word_of(const io::Words<Meaning>& words, Meaning meaning) {
+std::string_view word_meaning(const io::Words<Meaning>& words, Meaning meaning) {
   for (const auto& [word, means] : words)
     if (means == meaning) return word;
   return {};
@@ -222,7 +222,7 @@ CellId numbered_cell(const io::TomlNode& node) {
 }
 
 const char* name_of(Channel channel) {
-  return word_of(channel_words(), channel).data();  // literals, which end with 0
+  return word_meaning(channel_words(), channel).data();  // literals, which end with 0
 }
 
 const io::Words<Channel>& channel_words() {
@@ -292,7 +292,7 @@ std::string keys_text(Channel channel, const Track& keys) {
   for (const Key& key : keys) {
     list.append(list.empty() ? "" : ", ");
     list += fmt::format("[{}, {}", key.frame, value_text(channel, key.value));
-    if (key.ease != Ease::Straight) list += fmt::format(", \"{}\"", word_of(ease_words(), key.ease));
+    if (key.ease != Ease::Straight) list += fmt::format(", \"{}\"", word_meaning(ease_words(), key.ease));
     list += "]";
   }
   return fmt::format("[{}]", list);
@@ -411,7 +411,7 @@ Constraint read_constraint(io::KeyReader& keys, const CellOfWords& cells) {
 
 void write_mapping(const Mapping& mapping, const CellWords& words, io::TomlFields& fields) {
   fields.add("id", mapping.triangle);
-  fields.add("mode", word_of(mapping_words(), mapping.mode));
+  fields.add("mode", word_meaning(mapping_words(), mapping.mode));
   if (mapping.cell) fields.add_text("cell", words(mapping.cell));
 }
 

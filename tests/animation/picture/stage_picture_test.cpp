@@ -12,7 +12,7 @@ namespace icome::animation {
 namespace {
 
 constexpr std::uint32_t kRed = 0xffff0000U, kGreen = 0xff00ff00U, kBlue = 0xff0000ffU, kPaper = 0xffffffffU;
-constexpr double kQuarter = std::numbers::pi / 2;
+constexpr double kQuarterTurn = std::numbers::pi / 2;
 
 /// Four squares: red and green above, blue and clear below.
 Pixels quarters(int side) {
@@ -54,7 +54,7 @@ TEST_F(StagePicture, PutsThePivotAtThePlace) {
 
 TEST_F(StagePicture, TurnsCounterClockwiseAsSeen) {
   add_cell(project_, "quarters.png", {10, 10}, {50, 30});
-  rest(0).angle = kQuarter;
+  rest(0).angle = kQuarterTurn;
   // The upper right goes to the upper left, the upper left to the lower left.
   const Pixels drawn = frame();
   EXPECT_EQ(drawn.row(24)[44], kGreen);
@@ -96,8 +96,8 @@ TEST_F(StagePicture, CameraShowsItsPlaceInTheMiddleZoomedAndTurned) {
   EXPECT_EQ(drawn.row(12)[67], kGreen);
   EXPECT_EQ(drawn.row(8)[32], kPaper);
   // A camera that is turned as a cell is shows it upright.
-  project_.camera.rest.angle = kQuarter;
-  rest(0).angle = kQuarter;
+  project_.camera.rest.angle = kQuarterTurn;
+  rest(0).angle = kQuarterTurn;
   drawn = frame();
   EXPECT_EQ(drawn.row(14)[34], kRed);
   EXPECT_EQ(drawn.row(14)[65], kGreen);
@@ -185,7 +185,7 @@ TEST_F(StagePicture, FindsTheTopmostCellThatIsNotClear) {
   EXPECT_EQ(at(45, 25), top);
   EXPECT_EQ(at(55, 35), red);  // the clear quarter
   EXPECT_EQ(at(39.9, 30), std::nullopt);
-  rest(1).angle = kQuarter;
+  rest(1).angle = kQuarterTurn;
   EXPECT_EQ(at(55, 35), top);
   EXPECT_EQ(at(55, 25), red);
   rest(1).opacity = 0.05;
@@ -200,7 +200,7 @@ TEST_F(StagePicture, FindsTheTopmostCellThatIsNotClear) {
 
 TEST_F(StagePicture, OutlinesAreTheCornersOnTheStage) {
   add_cell(project_, "red.png", {0, 0}, {50, 30});
-  rest(0).angle = kQuarter;
+  rest(0).angle = kQuarterTurn;
   rest(0).scale = 2;
   const auto outline = outline_of(project_.layers[0].cells[0], rest(0), pictures_);
   ASSERT_TRUE(outline);
