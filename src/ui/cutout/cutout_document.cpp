@@ -10,7 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "animation/record/posing.h"
 #include "cutout/source/frame_source.h"
 #include "ui/actions/recent_files.h"
 
@@ -76,7 +75,7 @@ CutoutDocument::~CutoutDocument() = default;
 
 void CutoutDocument::use_folder(const fs::path& folder) {
   pictures_ = std::make_unique<animation::CellPictures>(
-      folder, animation::CellPictureOptions{.leaves_folder = true});
+      folder, animation::CellPictureOptions{.reach = animation::Reach::Anywhere});
 }
 
 void CutoutDocument::take(Project project, const fs::path& folder) {
@@ -93,6 +92,7 @@ void CutoutDocument::take(Project project, const fs::path& folder) {
   selection_.clear();
   keys_.clear();
   tried_.reset();
+  recording_.reset();
   frame_ = 0;
   told_journal_ = false;
   shown_ = keyed();
@@ -166,11 +166,42 @@ void CutoutDocument::try_out(std::vector<animation::Hold> holds) {
   const CellStates before = shown_;
   tried_ = animation::solved(project(), states, holds, &before).states;
   shown_ = *tried_;
+  if (recording_) take_down(holds);
   changed_(CutoutChange::Pose);
+}
+
+/// Cells in hands, and those that they move.
+void CutoutDocument::take_down(const std::vector<animation::Hold>& holds) {
+  const CellStates still = keyed();
+  CellStates moved;
+  for (const auto& [cell, state] : shown_) {
+    const auto before = still.find(cell);
+    const bool is_held = std::ranges::find(holds, cell, &animation::Hold::cell) != holds.end();
+    if (is_held || before == still.end() || !(before->second == state)) moved.emplace(cell, state);
+  }
+  recording_->take(frame_, moved);
+}
+
+void CutoutDocument::begin_recording(std::optional<animation::LayerId> layer) {
+  give_up();
+  recording_.emplace(project(), layer);
+}
+
+void CutoutDocument::end_recording(double tolerance) {
+  if (!recording_) return;
+  const ProjectEdit edit = recording_->finish(tolerance);
+  recording_.reset();
+  give_up();
+  if (edit.empty()) return remark_("Nothing was moved, so nothing was recorded.");
+  perform(edit);
 }
 
 bool CutoutDocument::keep() {
   if (!tried_) return true;
+  if (recording_) {
+    give_up();
+    return true;
+  }
   const ProjectEdit edit = animation::keyed_pose(project(), frame_, *tried_);
   if (edit.empty()) {
     give_up();

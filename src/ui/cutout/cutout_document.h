@@ -9,6 +9,7 @@
 #include "animation/files/project_file.h"
 #include "animation/motion/constraints.h"
 #include "animation/picture/stage_picture.h"
+#include "animation/record/posing.h"
 #include "animation/script/animation_tool.h"
 #include "ui/cutout/key_edits.h"
 
@@ -60,11 +61,18 @@ class CutoutDocument {
   /// Shows cells as hands wish them, in the place of what was tried out before. They obey the constraints:
   /// what hangs on them moves, too, and they themselves only go where they can. Cells of locked layers stay.
   void try_out(std::vector<animation::Hold> holds);
-  /// Keys what was tried out, as one step to undo; nothing where nothing was.
+  /// Keys what was tried out, as one step to undo; nothing where nothing was, or while it is recorded.
   bool keep();
   /// Ends showing what was tried out.
   void give_up();
   const std::optional<CellStates>& tried() const { return tried_; }
+
+  /// Takes down what is tried out at each frame, of one layer or, where it is none, of all.
+  void begin_recording(std::optional<animation::LayerId> layer);
+  bool is_recording() const { return recording_.has_value(); }
+  /// Puts what was taken down into the animation, as one step to undo. Keys that make less of a difference
+  /// than `tolerance` (px) are left out.
+  void end_recording(double tolerance);
 
   /// Uses a tool, as a line of a script does. Remarks and refusals are told; false: it was refused.
   bool perform(const interaction::Value& command);
@@ -104,6 +112,7 @@ class CutoutDocument {
   base::Result<void> write_down(const animation::ProjectEdit& edit);
   void begin_journal(std::uint64_t length);
   void keep_for_recovery();
+  void take_down(const std::vector<animation::Hold>& holds);
   animation::ProjectEdit renamed_for(const std::filesystem::path& folder) const;
   void forget_gone();
   void finish();
@@ -121,6 +130,7 @@ class CutoutDocument {
   KeyPlaces keys_;
   CellStates shown_;
   std::optional<CellStates> tried_;
+  std::optional<animation::Recording> recording_;
   std::function<void(CutoutChange)> changed_ = [](CutoutChange) {};
   std::function<void(const std::string&)> remark_ = [](const std::string&) {};
 };

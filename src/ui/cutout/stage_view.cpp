@@ -89,6 +89,12 @@ void StageView::refresh() {
   update();
 }
 
+void StageView::follow_frame() {
+  // A drag goes on from frame to frame while the animation runs.
+  if (contact_ == Contact::Drag && !pivot_) return drag_to(last_, strict_);
+  refresh();
+}
+
 void StageView::fit() {
   is_fitted_ = true;
   refresh();
@@ -106,8 +112,14 @@ void StageView::show_words(const QString& words) {
   update();
 }
 
+void StageView::show_recording(bool recording) {
+  if (recording == is_recording_) return;
+  is_recording_ = recording;
+  update();
+}
+
 bool StageView::event(QEvent* event) {
-  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::DevicePixelRatioChange) refresh();
+  if (event->type() == QEvent::PaletteChange) refresh();
   if (event->type() == QEvent::ShortcutOverride) {
     // Esc and Enter answer a question; arrow keys move cells; else they are shortcuts of the window.
     const auto& key = static_cast<const QKeyEvent&>(*event);
@@ -164,6 +176,11 @@ void StageView::paintEvent(QPaintEvent* /*event*/) {
   if (is_asking()) paint_question(painter);
   if (document_.project().cell_count() == 0) paint_beginning(painter);
   if (!words_.isEmpty()) paint_words(painter);
+  if (is_recording_) {
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(QPen(colours().bad, 6.0));
+    painter.drawRect(rect());
+  }
   if (hasFocus()) {
     painter.setRenderHint(QPainter::Antialiasing, false);
     painter.setPen(colours().accent);
@@ -340,8 +357,7 @@ void StageView::press(QPointF at, Qt::KeyboardModifiers modifiers) {
   drag_ = begin_drag(document_, is_handle ? grip : StageGrip::Move, on_stage(at));
 }
 
-void StageView::drag_to(QPointF at, Qt::KeyboardModifiers modifiers) {
-  const bool strict = modifiers & Qt::ShiftModifier;
+void StageView::drag_to(QPointF at, bool strict) {
   if (drag_.grip == StageGrip::Pivot) {
     pivot_ = on_stage(at);
     update();
@@ -362,7 +378,8 @@ void StageView::mouseMoveEvent(QMouseEvent* event) {
     return refresh();
   }
   if (contact_ == Contact::Press && way_length(at - pressed_) >= kDragBegins) contact_ = Contact::Drag;
-  if (contact_ == Contact::Drag) return drag_to(at, event->modifiers());
+  strict_ = event->modifiers() & Qt::ShiftModifier;
+  if (contact_ == Contact::Drag) return drag_to(at, strict_);
   if (contact_ == Contact::None) {
     const auto frame = handle_frame(document_, screen_from_stage());
     under_ = frame && !is_asking() ? grip_at(*frame, at) : StageGrip::None;

@@ -19,6 +19,8 @@ class StageView final : public QWidget {
 
   /// Shows the document as it is now.
   void refresh();
+  /// Shows another frame; what is dragged goes on in it.
+  void follow_frame();
   void fit();
   void zoom(double factor);  // about the middle
   const StageScale& scale() const { return scale_; }
@@ -33,6 +35,9 @@ class StageView final : public QWidget {
   bool is_asking() const { return bool(use_places_); }
   /// Large words over the stage, such as a count-in; none: an empty text.
   void show_words(const QString& words);
+
+  /// Frames the stage in red, while what is moved is recorded.
+  void show_recording(bool recording);
 
   /// Hears of the place (px on the stage) that the pointer comes to.
   void on_pointer(std::function<void(const animation::Vector2&)> pointer) { pointer_ = std::move(pointer); }
@@ -67,7 +72,7 @@ class StageView final : public QWidget {
   std::optional<CellId> cell_under(QPointF at);
   bool camera_under(QPointF at);
   void press(QPointF at, Qt::KeyboardModifiers modifiers);
-  void drag_to(QPointF at, Qt::KeyboardModifiers modifiers);
+  void drag_to(QPointF at, bool strict);
   void select_within(const QRectF& marquee, bool more);
   void add_place(QPointF at);
   void end_question(bool use);
@@ -89,10 +94,12 @@ class StageView final : public QWidget {
   Contact contact_ = Contact::None;
   StageDrag drag_;
   QPointF pressed_, last_;
+  bool strict_ = false;  // a drag goes along one axis, or in steps of an angle
   StageGrip under_ = StageGrip::None;
   std::optional<CellId> hovered_;
   std::optional<animation::Vector2> pivot_;  // while it is dragged, px on the stage
   QString words_;
+  bool is_recording_ = false;
   QString asked_;
   std::vector<animation::Vector2> places_;
   std::size_t least_places_ = 1, most_places_ = 1;
