@@ -51,6 +51,7 @@ struct Entries {
   SpeechOptions speech;
   SketchOptions sketch;
   TrackOptions track;
+  AnimateOptions animate;
   DesktopCommandOptions desktop;
   TouchOptions touch;
   std::string friction;
@@ -536,6 +537,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   add_speech(app, entries.speech);
   add_sketch(app, entries.sketch);
   add_track(app, entries.track);
+  add_animate(app, entries.animate);
   const CLI::App* const named = named_subcommand(app, 1, argc, argv);
   // CLI11 would speak of "arguments that were not expected".
   if (argc > 1 && argv[1][0] != '-' && named == nullptr && !is_design_name(argv[1]))
@@ -595,6 +597,8 @@ CommandLine parse_command_line(int argc, char** argv) {
     command_line.sketch = std::move(entries.sketch);
   } else if (!entries.track.task.empty()) {
     command_line.track = std::move(entries.track);
+  } else if (!entries.animate.task.empty()) {
+    command_line.animate = std::move(entries.animate);
   } else if (techniques.parsed()) {
     auto options = understood_techniques(entries);
     if (!options) return bad_usage(options.error().message, help);

@@ -16,6 +16,7 @@
 #include "apps/study/study_options.h"
 #include "apps/techniques/techniques_options.h"
 #include "apps/touch/touch_options.h"
+#include "apps/animate/animate_options.h"
 #include "apps/track/track_options.h"
 
 namespace icome::apps {
@@ -40,6 +41,7 @@ struct CommandLine {
   std::optional<SpeechOptions> speech;
   std::optional<SketchOptions> sketch;
   std::optional<TrackOptions> track;
+  std::optional<AnimateOptions> animate;
   std::optional<DesktopCommandOptions> desktop;
   int exit_code = 0;  // to return when none is set: help or version were printed, or an error
 };

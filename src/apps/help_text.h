@@ -40,6 +40,7 @@ constexpr const char* kProgramExamples =
     "                                              voice commands, as text\n"
     "  icome sketch fit strokes.csv                curves of a pen's strokes\n"
     "  icome track camera --known triangles.toml   follow triangles on a table with a camera\n"
+    "  icome animate boat.cutout --out boat.mp4    cut-out animations: change, record, render\n"
     "  icome serve                                 several people shape one design: prints a link\n"
     "\n"
     "The window needs a display. Without one, icome touch touches a design and icome shot draws it.\n"

@@ -20,6 +20,7 @@
 #include "apps/techniques/techniques_command.h"
 #include "apps/terminal.h"
 #include "apps/touch/touch_command.h"
+#include "apps/animate/animate_command.h"
 #include "apps/track/track_command.h"
 
 int main(int argc, char** argv) {
@@ -41,6 +42,7 @@ int main(int argc, char** argv) {
     if (command_line.speech) return icome::apps::run_speech(*command_line.speech);
     if (command_line.sketch) return icome::apps::run_sketch(*command_line.sketch);
     if (command_line.track) return icome::apps::run_track(*command_line.track);
+    if (command_line.animate) return icome::apps::run_animate(*command_line.animate);
     if (command_line.keep) return icome::apps::run_keep(*command_line.keep);
     if (command_line.desktop) return icome::apps::run_desktop_window(argc, argv, *command_line.desktop);
     return command_line.exit_code;

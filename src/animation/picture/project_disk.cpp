@@ -1,0 +1,50 @@
+#include "animation/picture/project_disk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include "cutout/source/frame_source.h"
+#include "io/file_ending.h"
+
+namespace icome::animation {
+namespace {
+
+bool is_picture(const std::filesystem::path& file) {
+  const io::FileEnding ending = io::ending_of(file);
+  constexpr std::array<std::string_view, 4> kEndings = {".png", ".jpg", ".jpeg", ".svg"};
+  return !ending.packed && std::ranges::find(kEndings, ending.type) != kEndings.end();
+}
+
+base::Result<std::vector<std::string>> pictures_below(const std::filesystem::path& home,
+                                                      const std::string& folder) {
+  std::error_code error;
+  std::vector<std::string> names;
+  std::filesystem::directory_iterator entry(home / folder, error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    if (is_picture(entry->path()))
+      names.push_back((std::filesystem::path(folder) / entry->path().filename()).lexically_normal().string());
+    if (names.size() > kMostPictures)
+      return base::fail(fmt::format("{}: has more than {} pictures", folder, kMostPictures));
+  }
+  if (error) return base::fail(fmt::format("{}: {}", folder, error.message()));
+  std::ranges::sort(names, cutout::before_by_number);
+  return names;
+}
+
+}  // namespace
+
+ProjectDisk disk_of(CellPictures& pictures) {
+  return {[&pictures](const std::string& file) -> base::Result<Vector2> {
+            const auto size = pictures.size(file);
+            if (!size) return tl::unexpected(size.error());
+            return Vector2(size->width, size->height);
+          },
+          [&pictures](const std::string& folder) { return pictures_below(pictures.folder(), folder); }};
+}
+
+}  // namespace icome::animation
