@@ -47,7 +47,7 @@ Words input_words(const FrameMaker& maker) {
           "-video_size",
           fmt::format("{}x{}", maker.width(), maker.height()),
           "-framerate",
-          fmt::format("{:.9g}", maker.project().stage.rate),
+          fmt::format("{:.17g}", maker.project().stage.rate),
           "-i",
           "pipe:0"};
 }
