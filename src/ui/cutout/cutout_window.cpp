@@ -51,7 +51,7 @@ ShortcutSheet::Part stage_part() {
            {"Move; with Shift along one axis", "Drag a cell"},
            {"Turn; with Shift in steps of 15\u00b0", "Drag the round handle"},
            {"Scale", "Drag a corner"},
-           {"Move the pivot", "Drag the cross"},
+           {"Move the pivot", "Ctrl and drag the cross"},
            {"Move by 1 px, by 10 px", "Arrow keys, with Shift"},
            {"Zoom", "Wheel"},
            {"Shift the view", "Middle drag"},

@@ -49,6 +49,7 @@ void PlayBar::add_choices() {
   rate_->setObjectName("play.rate");
   rate_->setAccessibleName("Frames a second");
   rate_->setToolTip("Frames a second");
+  rate_->setMinimumContentsLength(int(rate_text(25.0).size()));
   for (const double rate : kRates) rate_->addItem(rate_text(rate), rate);
   connect(rate_, &QComboBox::activated, this, [this](int at) {
     document_.perform(cutout_command("stage", {{"rate", rate_->itemData(at).toDouble()}}));

@@ -119,11 +119,11 @@ std::optional<HandleFrame> handle_frame(CutoutDocument& document, const Affine2&
   return frame;
 }
 
-StageGrip grip_at(const HandleFrame& frame, QPointF at) {
+StageGrip grip_at(const HandleFrame& frame, QPointF at, bool takes_pivot) {
+  if (takes_pivot && frame.pivot && distance(*frame.pivot, at) <= kHandleReach) return StageGrip::Pivot;
   if (distance(frame.turn, at) <= kHandleReach) return StageGrip::Turn;
   for (const QPointF& corner : frame.corners)
     if (distance(corner, at) <= kHandleReach) return StageGrip::Scale;
-  if (frame.pivot && distance(*frame.pivot, at) <= kHandleReach) return StageGrip::Pivot;
   const QPolygonF polygon(QList<QPointF>(frame.corners.begin(), frame.corners.end()));
   return polygon.containsPoint(at, Qt::OddEvenFill) ? StageGrip::Move : StageGrip::None;
 }

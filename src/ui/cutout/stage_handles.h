@@ -25,8 +25,9 @@ std::optional<std::array<animation::Vector2, 4>> corners_of(CutoutDocument& docu
 
 /// None where nothing that is selected is shown.
 std::optional<HandleFrame> handle_frame(CutoutDocument& document, const animation::Affine2& screen_from_stage);
-/// The handle at a place of the screen; Move within the frame.
-StageGrip grip_at(const HandleFrame& frame, QPointF at);
+/// The handle at a place of the screen; Move within the frame. The pivot often lies where a cell is dragged, so it
+/// is a handle only where that is asked for.
+StageGrip grip_at(const HandleFrame& frame, QPointF at, bool takes_pivot);
 void paint_handles(QPainter& painter, const HandleFrame& frame, StageGrip under_pointer);
 
 /// How a drag changes what is selected: from how it lay, a way on the stage, a turn and a factor.

@@ -333,7 +333,8 @@ void StageView::mousePressEvent(QMouseEvent* event) {
 void StageView::press(QPointF at, Qt::KeyboardModifiers modifiers) {
   if (is_asking()) return add_place(at);
   const auto frame = handle_frame(document_, screen_from_stage());
-  const StageGrip grip = frame ? grip_at(*frame, at) : StageGrip::None;
+  const StageGrip grip =
+      frame ? grip_at(*frame, at, modifiers & Qt::ControlModifier) : StageGrip::None;
   const bool is_handle = grip != StageGrip::None && grip != StageGrip::Move;
   const bool more = modifiers & Qt::ShiftModifier;
   if (!is_handle) {
@@ -383,7 +384,8 @@ void StageView::mouseMoveEvent(QMouseEvent* event) {
   if (contact_ == Contact::Drag) return drag_to(at, strict_);
   if (contact_ == Contact::None) {
     const auto frame = handle_frame(document_, screen_from_stage());
-    under_ = frame && !is_asking() ? grip_at(*frame, at) : StageGrip::None;
+    const bool takes_pivot = event->modifiers() & Qt::ControlModifier;
+    under_ = frame && !is_asking() ? grip_at(*frame, at, takes_pivot) : StageGrip::None;
     hovered_ = cell_under(at);
     show_cursor(at);
   }
