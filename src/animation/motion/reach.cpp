@@ -15,6 +15,9 @@ constexpr double kSlowZone = 0.01;    // of the reach, in which a chain straight
 constexpr double kGain = 6;           // px that a part may move for one that the hand went ahead
 constexpr double kAngleWeight = 0.1;  // reaches for a radian
 constexpr double kStuck = 1e-4;  // cosine between error and motion, below which nothing moves to the target
+constexpr double kSideways = 4;  // times the pull sideways by which an end that lags may turn
+constexpr double kSwing = 0.7;   // rad, that an end turns at most in a frame that is its radius from the hand
+constexpr double kNoLength = 1e-9;  // px
 constexpr double kFirstBend = 0.1;  // rad, by which a straight chain is bent to begin with
 
 double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -204,70 +207,78 @@ void bend(Arm& arm) {
   arm.set_turns(turns);
 }
 
-/// The distance from its root at which the end follows a hand at `distance`.
-double followed(const Arm& arm, double distance) {
-  const double far = arm.length();
-  if (arm.size() == 1) return far;
-  const double near = std::max(0.0, 2 * arm.longest() - far);
-  const double zone = std::min(kSlowZone * far, (far - near) / 4);
-  if (zone <= 0) return far;
-  if (distance > far - zone) return far - zone * zone / (distance - far + 2 * zone);
-  if (near > 0 && distance < near + zone) return near + zone * zone / (near - distance + 2 * zone);
-  return distance;
-}
+/// The place that the end can go to for a hand, near the reach and near the hole about the root, whose radius
+/// is `hole`, at a distance from the root that changes ever more slowly.
+class Followed {
+ public:
+  explicit Followed(const Arm& arm)
+      : far_(arm.length()),
+        hole_(std::max(0.0, 2 * arm.longest() - far_)),
+        zone_(arm.size() > 1 ? std::min(kSlowZone * far_, (far_ - hole_) / 4) : 0) {}
 
-/// The place that the end can go to for a hand at `target`.
-Vector2 place_for(const Arm& arm, const Vector2& target, bool continues) {
-  const Vector2 way = target - arm.origin(), now = arm.end() - arm.origin();
-  const double distance = way.norm(), radius = followed(arm, distance);
-  if (distance < 1e-12 && now.norm() < 1e-12) return arm.end();
-  if (distance < 1e-12) return arm.origin() + radius * now.normalized();
-  const Vector2 ahead = way / distance;
-  if (!continues || now.norm() < 1e-12) return arm.origin() + radius * ahead;
-  const Vector2 from = now.normalized();
-  const double turn = std::atan2(-cross(from, ahead), from.dot(ahead));
-  const double allowed = 4 * std::abs(cross(way, from));
-  if (std::abs(turn) * std::abs(radius - distance) <= allowed) return arm.origin() + radius * ahead;
-  return arm.origin() + radius * turned(from, std::copysign(allowed / std::abs(radius - distance), turn));
+  Vector2 place(const Arm& arm, const Vector2& hand, bool continues) const {
+    const Vector2 way = hand - arm.origin(), now = arm.end() - arm.origin();
+    const double distance = way.norm(), goes_to = radius(distance);
+    const bool has_end = now.norm() > kNoLength;
+    if (distance < kNoLength && !has_end) return arm.end();
+    const Vector2 from = has_end ? Vector2(now.normalized()) : Vector2(way / distance);
+    const Vector2 ahead = distance < kNoLength ? from : Vector2(way / distance);
+    const double turn = std::atan2(-cross(from, ahead), from.dot(ahead));
+    // Where the end cannot be with the hand, a hand that passes the root turns the chain by what pulls it
+    // sideways.
+    const double apart = std::max(std::abs(goes_to - distance), std::min(hole_, (hand - arm.end()).norm()));
+    const double allowed = std::min(kSideways * std::abs(cross(way, from)), kSwing * goes_to);
+    if (!continues || std::abs(turn) * apart <= allowed) return arm.origin() + goes_to * ahead;
+    return arm.origin() + goes_to * turned(from, std::copysign(allowed / apart, turn));
+  }
+
+ private:
+  double radius(double distance) const {
+    if (zone_ <= 0) return far_;
+    if (distance > far_ - zone_) return far_ - zone_ * zone_ / (distance - far_ + 2 * zone_);
+    if (hole_ > 0 && distance < hole_ + zone_) return hole_ + zone_ * zone_ / (hole_ - distance + 2 * zone_);
+    return distance;
+  }
+
+  double far_, hole_, zone_;
+};
+
+/// Goes but a share of the way from the first pose, so that no part moves further than that.
+void restrain(Arm& arm, const Arm& first, double most) {
+  double moved = 0;
+  for (std::size_t i = 0; i < first.places().size(); ++i)
+    moved = std::max(moved, (arm.places()[i] - first.places()[i]).norm());
+  if (moved <= most) return;
+  std::vector<double> turns = arm.turns();
+  for (std::size_t i = 0; i < turns.size(); ++i)
+    turns[i] = first.turns()[i] + most / moved * (turns[i] - first.turns()[i]);
+  arm.set_turns(turns);
 }
 
 }  // namespace
 
 void reach(Rig& rig, const Reach& wish, bool continues) {
   Arm arm(rig, wish);
-  const std::vector<double> first_turns = arm.turns();
-  const std::vector<Vector2> first_places = arm.places();
-  if (arm.length() < 1e-9) {
+  const Arm first = arm;
+  if (arm.length() < kNoLength) {
     if (!wish.angle) return;
-    std::vector<double> turns = first_turns;
+    std::vector<double> turns = arm.turns();
     turns.back() += *wish.angle - arm.end_angle();
     arm.set_turns(turns);
     return arm.write(rig, wish.turning);
   }
-  const Vector2 target = place_for(arm, wish.target, continues);
+  const Vector2 target = Followed(arm).place(arm, wish.target, continues);
   double ahead = std::min((target - arm.end()).norm(), (wish.target - arm.end()).norm());
   if (wish.angle) ahead += arm.last_link() * std::abs(*wish.angle - arm.end_angle());
   if (wish.angle) approach(arm, target, wish.angle);
   approach(arm, target, std::nullopt);
   if (is_stuck(arm, target)) {
-    const std::vector<double> stuck = arm.turns();
-    const double error = (arm.end() - target).norm();
-    bend(arm);
-    approach(arm, target, std::nullopt);
-    if ((arm.end() - target).norm() > 0.999 * error) arm.set_turns(stuck);
+    Arm bent = arm;
+    bend(bent);
+    approach(bent, target, std::nullopt);
+    if ((bent.end() - target).norm() < 0.999 * (arm.end() - target).norm()) arm = bent;
   }
-  if (continues) {
-    double moved = 0;
-    for (std::size_t i = 0; i < first_places.size(); ++i)
-      moved = std::max(moved, (arm.places()[i] - first_places[i]).norm());
-    if (moved > kGain * ahead) {
-      std::vector<double> turns = arm.turns();
-      const double share = kGain * ahead / moved;
-      for (std::size_t i = 0; i < turns.size(); ++i)
-        turns[i] = first_turns[i] + share * (turns[i] - first_turns[i]);
-      arm.set_turns(turns);
-    }
-  }
+  if (continues) restrain(arm, first, kGain * ahead);
   arm.write(rig, wish.turning);
 }
 

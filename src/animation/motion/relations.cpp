@@ -15,7 +15,10 @@ constexpr double kKept = 1e-7;          // px
 constexpr double kNoWay = 1e-9;         // px, below which a direction is not told
 constexpr double kLeastDamping = 1e-6;  // of squares of freedoms' shares
 constexpr double kMostDamping = 1e3;
-constexpr double kLargestTurn = 0.5;     // rad, in one step
+constexpr double kLargestTurn = 0.5;  // rad, in one step
+constexpr int kLimitRounds = 5;
+constexpr double kAtLimit = 1e-9;        // rad
+constexpr double kImmovable = 1e-14;     // square of what freedoms move a relation by
 constexpr std::size_t kRowsAtOnce = 64;  // that are solved together
 constexpr double kTie = 1e-6;            // px, within which branches of a way are one
 
@@ -318,33 +321,65 @@ bool Relations::step(const Island& island, std::size_t from, std::size_t to, dou
     if (relations_[std::size_t(island.relations[k])].counts) rows.push_back(island.relations[k]);
   const std::size_t freedoms = island.freedoms;
   rows_.assign(rows.size() * freedoms, 0);
-  weighted_.assign(rows.size() * freedoms, 0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Relation& relation = relations_[std::size_t(rows[r])];
     double* row = &rows_[r * freedoms];
     add_row(relation.one, relation.on_one, relation.normal, row);
     if (relation.other >= 0) add_row(relation.other, relation.on_other, -relation.normal, row);
-    for (std::size_t f = 0; f < freedoms; ++f) weighted_[r * freedoms + f] = weights_[f] * row[f];
   }
-  std::vector<std::size_t> taken(rows.size());
+  // What would turn past a limit is kept out.
+  free_ = weights_;
+  bool is_pushed = solve_rows(rows, freedoms, damping);
+  for (int round = 0; round < kLimitRounds && block_limits(island); ++round)
+    is_pushed = solve_rows(rows, freedoms, damping);
+  if (!is_pushed) return false;
+  move(island);
+  return true;
+}
+
+/// Takes freedoms out that are at a limit and would turn past it; false: there are none.
+bool Relations::block_limits(const Island& island) {
+  bool has_blocked = false;
+  for (const int root : island.roots) {
+    const auto first = std::size_t(freedom_of_root_[std::size_t(root)]);
+    for (int k = root + 1; k < rig_.end_of(root); ++k) {
+      const RigCell& cell = rig_.cells[std::size_t(k)];
+      const std::size_t f = first + 1 + std::size_t(k - root);
+      const bool is_out = (by_[f] > 0 && cell.relative >= cell.greatest - kAtLimit) ||
+                          (by_[f] < 0 && cell.relative <= cell.least + kAtLimit);
+      if (!is_out) continue;
+      free_[f] = 0;
+      has_blocked = true;
+    }
+  }
+  return has_blocked;
+}
+
+/// Changes of freedoms (by_) that keep relations to first order, by as little as can be; false: none can.
+bool Relations::solve_rows(const std::vector<int>& rows, std::size_t freedoms, double damping) {
+  const std::size_t count = rows.size();
+  weighted_.resize(count * freedoms);
+  products_.resize(count * count);
+  for (std::size_t a = 0; a < count; ++a) {
+    const double* row = &rows_[a * freedoms];
+    double* weighted = &weighted_[a * freedoms];
+    for (std::size_t f = 0; f < freedoms; ++f) weighted[f] = free_[f] * row[f];
+    for (std::size_t b = 0; b <= a; ++b) {
+      double sum = 0;
+      for (std::size_t f = 0; f < freedoms; ++f) sum += weighted[f] * rows_[b * freedoms + f];
+      products_[a * count + b] = products_[b * count + a] = sum;
+    }
+  }
+  std::vector<std::size_t> taken(count);
   std::iota(taken.begin(), taken.end(), 0);
-  const auto product = [&](std::size_t a, std::size_t b) {
-    double sum = 0;
-    for (std::size_t f = 0; f < freedoms; ++f) sum += weighted_[a * freedoms + f] * rows_[b * freedoms + f];
-    return sum;
-  };
-  std::vector<double> products(rows.size() * rows.size());
-  for (std::size_t a = 0; a < rows.size(); ++a)
-    for (std::size_t b = 0; b <= a; ++b)
-      products[a * rows.size() + b] = products[b * rows.size() + a] = product(a, b);
-  std::erase_if(taken, [&](std::size_t r) { return products[r * rows.size() + r] < 1e-14; });
+  std::erase_if(taken, [&](std::size_t r) { return products_[r * count + r] < kImmovable; });
   // Pushes that would pull are left out, those of relations that would be kept without.
   while (!taken.empty()) {
     const std::size_t n = taken.size();
     matrix_.resize(n * n);
     pushes_.resize(n);
     for (std::size_t a = 0; a < n; ++a) {
-      for (std::size_t b = 0; b < n; ++b) matrix_[a * n + b] = products[taken[a] * rows.size() + taken[b]];
+      for (std::size_t b = 0; b < n; ++b) matrix_[a * n + b] = products_[taken[a] * count + taken[b]];
       matrix_[a * n + a] += damping;
       pushes_[a] = -relations_[std::size_t(rows[taken[a]])].excess;
     }
@@ -361,11 +396,10 @@ bool Relations::step(const Island& island, std::size_t from, std::size_t to, dou
     Relation& relation = relations_[std::size_t(rows[taken[a]])];
     relation.counts = true;
     relation.waits = false;
-    for (std::size_t f = 0; f < freedoms; ++f) by_[f] += weighted_[taken[a] * freedoms + f] * pushes_[a];
+    const double* weighted = &weighted_[taken[a] * freedoms];
+    for (std::size_t f = 0; f < freedoms; ++f) by_[f] += weighted[f] * pushes_[a];
   }
-  if (taken.empty()) return false;
-  move(island);
-  return true;
+  return !taken.empty();
 }
 
 void Relations::move(const Island& island) {

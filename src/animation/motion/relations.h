@@ -68,6 +68,8 @@ class Relations {
   void follow_way(Relation& relation);
   void choose(const Island& island);
   bool step(const Island& island, std::size_t from, std::size_t to, double damping);
+  bool block_limits(const Island& island);
+  bool solve_rows(const std::vector<int>& rows, std::size_t freedoms, double damping);
   void weigh(const Island& island, bool with_hands);
   void add_row(int cell, const Vector2& offset, const Vector2& along, double* row) const;
   void move(const Island& island);
@@ -78,10 +80,10 @@ class Relations {
   std::vector<Way> ways_;
   std::vector<Relation> relations_;
   std::vector<Island> islands_;
-  std::vector<double> levers_;        // px, of each cell: how far what matters lies from its pin
-  std::vector<int> freedom_of_root_;  // by cell
-  std::vector<double> weights_, by_;  // of an island's freedoms
-  std::vector<double> rows_, weighted_, matrix_, pushes_;  // of a step
+  std::vector<double> levers_;               // px, of each cell: how far what matters lies from its pin
+  std::vector<int> freedom_of_root_;         // by cell
+  std::vector<double> weights_, free_, by_;  // of an island's freedoms
+  std::vector<double> rows_, weighted_, products_, matrix_, pushes_;  // of a step
 };
 
 }  // namespace icome::animation

@@ -6,22 +6,11 @@
 #include <cmath>
 #include <map>
 
-#include "base/shown_text.h"
-#include "io/url_policy.h"
-
 namespace icome::animation {
 namespace {
 
 using base::fail;
 using base::Result;
-
-/// The name of a picture as errors begin with it: on one line.
-std::string shown_picture(const std::string& picture) {
-  std::string text = base::shown_text(picture);
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-  return text;
-}
 
 constexpr double kRounding = 1e-9;
 
@@ -93,29 +82,14 @@ CellPictures::CellPictures(CellPictures&&) noexcept = default;
 CellPictures& CellPictures::operator=(CellPictures&&) noexcept = default;
 CellPictures::~CellPictures() = default;
 
-Result<std::filesystem::path> CellPictures::path_of(const PicturePlace& place,
-                                                    const std::string& picture) const {
-  const std::string name = shown_picture(picture);
-  if (picture.empty() || picture.find('\0') != std::string::npos)
-    return fail(fmt::format("'{}' is no name of a picture", name));
-  std::error_code error;
-  const std::filesystem::path file = std::filesystem::weakly_canonical(folder_ / place.file, error);
-  if (error) return fail(fmt::format("{}: {}", name, error.message()));
-  const std::filesystem::path folder = std::filesystem::weakly_canonical(folder_, error);
-  if (!options_.leaves_folder && (error || !io::is_below(folder, file)))
-    return fail(fmt::format("{}: it lies outside of the animation's folder; put a copy into that", name));
-  if (!std::filesystem::exists(file, error)) return fail(fmt::format("{}: there is no such file", name));
-  return file;
-}
-
 Result<void> CellPictures::load(const std::string& picture, Entry& entry) {
   PicturePlace place = picture_place(picture);
   entry.file = folder_ / place.file;
   entry.stamp = Stamp::of(entry.file);
-  const auto file = path_of(place, picture);
+  const auto file = file_of_project(folder_, place.file, picture, options_.reach);
   if (!file) return tl::unexpected(file.error());
   place.file = *file;
-  auto read = read_picture(place, shown_picture(picture), options_.seconds_limit);
+  auto read = read_picture(place, shown_name(picture), options_.seconds_limit);
   if (!read) return tl::unexpected(read.error());
   if (auto* const svg = std::get_if<SvgPicture>(&*read)) {
     entry.size = PictureSize{int(std::ceil(svg->width())), int(std::ceil(svg->height()))};
@@ -203,7 +177,7 @@ Result<CellPictures::Embedded> CellPictures::embedded(const std::string& picture
   if (const auto there = ensure_content(picture, found); !there) return tl::unexpected(there.error());
   if (found.svg) return Embedded{"image/svg+xml", found.svg->text()};
   const auto png = charts::encode_png(image_of(found.rasters.at(0)->pixels));
-  if (!png) return fail(fmt::format("{}: {}", shown_picture(picture), png.error().message));
+  if (!png) return fail(fmt::format("{}: {}", shown_name(picture), png.error().message));
   return Embedded{"image/png", std::string(png->begin(), png->end())};
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "animation/picture/picture_file.h"
+#include "animation/picture/project_file.h"
 #include "animation/project/project.h"
 
 namespace icome::animation {
@@ -37,9 +38,7 @@ struct PictureProblem {
 };
 
 struct CellPictureOptions {
-  /// May names lead out of the project's folder (../hand.png, /home/.../hand.png, links)? If not, a project
-  /// shows nothing but what came with it.
-  bool leaves_folder = false;
+  Reach reach = Reach::Folder;
   std::size_t memory_limit = std::size_t{512} << 20U;  ///< bytes of what is kept
   double seconds_limit = 10;                           ///< s that an SVG may take to be read or drawn
 };
@@ -56,6 +55,7 @@ class CellPictures {
   ~CellPictures();
 
   const std::filesystem::path& folder() const { return folder_; }
+  const CellPictureOptions& options() const { return options_; }
 
   /// Fails with a sentence that begins with the picture's name: missing, damaged, too large, outside of the
   /// folder. A failure is remembered until refresh().
@@ -81,7 +81,6 @@ class CellPictures {
 
   Entry& entry(const std::string& picture);
   base::Result<void> load(const std::string& picture, Entry& entry);
-  base::Result<std::filesystem::path> path_of(const PicturePlace& place, const std::string& picture) const;
   base::Result<void> ensure_content(const std::string& picture, Entry& entry);
   void keep(Entry& entry, int step, RasterPointer raster);
   void make_room(Entry& newest, int step);

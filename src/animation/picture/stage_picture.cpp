@@ -25,13 +25,6 @@ int spread(int i, int count) {
 /// A turn, counter-clockwise as seen, where y goes down.
 Eigen::Matrix2d seen_turn(double angle) { return Eigen::Rotation2Dd(-angle).toRotationMatrix(); }
 
-const std::string* shown_picture_of(const Cell& cell, const CellState& state) {
-  if (state.picture < 0 || std::size_t(state.picture) >= cell.pictures.size()) return nullptr;
-  return &cell.pictures[std::size_t(state.picture)];
-}
-
-bool is_shown(const CellState& state) { return state.opacity > 0 && state.scale > 0; }
-
 /// A frame with a cross in it, in a red that is seen on most pictures.
 Pixels crossed_frame() {
   constexpr std::uint32_t kLine = 0xffd02020U;
@@ -75,9 +68,9 @@ std::vector<Laid> laid_cells(const Project& project, const CellStates& states, C
     if (!layer.visible) continue;
     for (const Cell& cell : layer.cells) {
       const auto found = states.find(cell.id);
-      if (found == states.end() || !is_shown(found->second)) continue;
+      if (found == states.end()) continue;
       const CellState& state = found->second;
-      const std::string* const picture = shown_picture_of(cell, state);
+      const std::string* const picture = visible_picture(cell, state);
       if (!picture) continue;
       RasterPointer raster = raster_or_stand_in(pictures, *picture, zoom * state.scale);
       const Affine2 picture_from_raster(Eigen::Scaling(raster->scale().cwiseInverse()));
@@ -115,6 +108,15 @@ std::optional<Laid> laid_backdrop(const Project& project, Backdrop backdrop, con
 }
 
 }  // namespace
+
+const std::string* picture_of(const Cell& cell, const CellState& state) {
+  if (state.picture < 0 || std::size_t(state.picture) >= cell.pictures.size()) return nullptr;
+  return &cell.pictures[std::size_t(state.picture)];
+}
+
+const std::string* visible_picture(const Cell& cell, const CellState& state) {
+  return state.opacity > 0 && state.scale > 0 ? picture_of(cell, state) : nullptr;
+}
 
 Affine2 picture_from_stage(const Project& project, const CellStates& states, const FrameOptions& options,
                            int width, int height) {
@@ -161,7 +163,7 @@ Pixels draw_frame(const Project& project, const CellStates& states, CellPictures
 }
 
 std::optional<PictureSize> shown_size(const Cell& cell, const CellState& state, CellPictures& pictures) {
-  const std::string* const picture = shown_picture_of(cell, state);
+  const std::string* const picture = picture_of(cell, state);
   if (!picture) return std::nullopt;
   return pictures.size(*picture).value_or(stand_in()->size);
 }
@@ -184,8 +186,8 @@ std::optional<std::array<Vector2, 4>> outline_of(const Cell& cell, const CellSta
 namespace {
 
 bool covers(const Cell& cell, const CellState& state, CellPictures& pictures, const Vector2& point) {
-  const std::string* const picture = shown_picture_of(cell, state);
-  if (!picture || !is_shown(state)) return false;
+  const std::string* const picture = visible_picture(cell, state);
+  if (!picture) return false;
   const RasterPointer raster = raster_or_stand_in(pictures, *picture, state.scale);
   const Vector2 place =
       (stage_from_picture(cell, state).inverse() * point).cwiseProduct(raster->scale()).array().floor();

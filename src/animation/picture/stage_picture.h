@@ -45,6 +45,11 @@ void draw_frame(const Project& project, const CellStates& states, CellPictures& 
 Pixels draw_frame(const Project& project, const CellStates& states, CellPictures& pictures,
                   const FrameOptions& options = {});
 
+/// The name of the picture that a cell has in a state, and of the one that is seen of it, as it is neither
+/// clear nor shrunk to nothing; null where there is none.
+const std::string* picture_of(const Cell& cell, const CellState& state);
+const std::string* visible_picture(const Cell& cell, const CellState& state);
+
 /// The size of a cell's picture; a stand-in's where it cannot be shown. None where it shows no picture.
 std::optional<PictureSize> shown_size(const Cell& cell, const CellState& state, CellPictures& pictures);
 /// Px of the stage from px of a cell's picture.

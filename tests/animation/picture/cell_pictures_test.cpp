@@ -155,7 +155,7 @@ TEST_F(CellPicturesTest, TellsWhatIsWrong) {
   EXPECT_EQ(fault("huge.svg"), "huge.svg: it is 1e+07 x 3 px large; 8192 x 8192 are the most");
   EXPECT_TRUE(fault("other.xml").starts_with("other.xml: ")) << fault("other.xml");
   EXPECT_NE(fault("folder.png"), "");
-  EXPECT_EQ(fault(""), "'' is no name of a picture");
+  EXPECT_EQ(fault(""), "'' is no name of a file");
 }
 
 TEST_F(CellPicturesTest, RefusesPicturesThatAreTooLargeByTheirHeader) {
@@ -177,7 +177,7 @@ TEST_F(CellPicturesTest, StaysInItsFolderUnlessAllowed) {
     EXPECT_NE(fault(name).find("it lies outside of the animation's folder"), std::string::npos)
         << fault(name);
   CellPictureOptions options;
-  options.leaves_folder = true;
+  options.reach = Reach::Anywhere;
   CellPictures free(folder_.path(), options);
   for (const std::string& name : {above, (other / "a.png").string(), std::string("link.png")})
     EXPECT_TRUE(free.size(name)) << name;
