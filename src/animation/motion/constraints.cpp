@@ -88,7 +88,7 @@ class Holding {
     for (const int k : turning) continues = continues && bend_as_before(k);
     rig_.settle(cell(turning.front()).root);
     const RigCell& last = cell(turning.back());
-    Reach wish;
+    ArmWish wish;
     wish.turning = turning;
     if (hold.pulled) wish.offset = last.offset_of(*hold.pulled);
     wish.target = hold.wish.place + turned(wish.offset, hold.wish.angle);

@@ -25,7 +25,7 @@ double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() 
 /// The chain by itself: pins, the links between them, and the turns of the cells.
 class Arm {
  public:
-  Arm(const Rig& rig, const Reach& wish) {
+  Arm(const Rig& rig, const ArmWish& wish) {
     const RigCell& first = rig.cells[std::size_t(wish.turning.front())];
     hangs_ = first.parent >= 0;
     origin_ = hangs_ ? first.pin_place() : first.place;
@@ -257,7 +257,7 @@ void restrain(Arm& arm, const Arm& first, double most) {
 
 }  // namespace
 
-void reach(Rig& rig, const Reach& wish, bool continues) {
+void reach(Rig& rig, const ArmWish& wish, bool continues) {
   Arm arm(rig, wish);
   const Arm first = arm;
   if (arm.length() < kNoLength) {

@@ -8,7 +8,7 @@
 namespace icome::animation {
 
 /// Cells that turn, so that a point of the last one comes to a target.
-struct Reach {
+struct ArmWish {
   std::vector<int> turning;          ///< cells of a rig, each the parent of the next; one at least
   Vector2 offset = Vector2::Zero();  ///< of the last one's point, from its pivot at its angle 0
   Vector2 target = Vector2::Zero();  ///< px on the stage
@@ -18,6 +18,6 @@ struct Reach {
 /// Turns the cells from how they lie, by damped least squares within their limits. The first one turns about
 /// its pivot where it hangs on nothing. With `continues` they lie as in the frame before, and the bounds of
 /// solved() on what moves in one frame hold.
-void reach(Rig& rig, const Reach& wish, bool continues);
+void reach(Rig& rig, const ArmWish& wish, bool continues);
 
 }  // namespace icome::animation

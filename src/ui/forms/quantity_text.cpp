@@ -26,6 +26,7 @@ constexpr Typed kDampings[] = {{"N s/m", 1.0}, {"Ns/m", 1.0}, {"N·s/m", 1.0}};
 constexpr Typed kForces[] = {{"N", 1.0}, {"mN", 1e-3}};
 constexpr Typed kShares[] = {{"%", 1e-2}};
 constexpr Typed kPlains[] = {{"", 1.0}};
+constexpr Typed kPixels[] = {{"px", 1.0}};
 
 std::span<const Typed> units_of(Quantity quantity) {
   switch (quantity) {
@@ -43,6 +44,8 @@ std::span<const Typed> units_of(Quantity quantity) {
       return kShares;
     case Quantity::Degrees:
       return kDegrees;
+    case Quantity::Pixels:
+      return kPixels;
     case Quantity::Whole:
     case Quantity::Plain:
       break;
@@ -65,6 +68,8 @@ std::string hint(Quantity quantity) {
       return "Type a force such as 0.5; it is in N.";
     case Quantity::Share:
       return "Type a share such as 40; it is in percent.";
+    case Quantity::Pixels:
+      return "Type a length such as 120; it is in px.";
     case Quantity::Whole:
       return "Type a whole number such as 3.";
     case Quantity::Plain:

@@ -14,6 +14,7 @@ enum class Quantity : std::uint8_t {
   Force,      // N
   Share,      // of 1, shown in percent
   Degrees,    // an angle that is kept in degrees, so that quarter turns stay exact
+  Pixels,     // px
   Whole,      // a whole number
   Plain,
 };

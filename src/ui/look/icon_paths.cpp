@@ -488,6 +488,152 @@ IconPaths arrow_up(bool mirrored) {
   return it;
 }
 
+/// A triangle to the right, as for playing; `left` and `width` of it.
+void add_play(QPainterPath& path, double left, double width) {
+  add_line(path, {{left, 4.5}, {left + width, 10.0}, {left, 15.5}}, true);
+}
+
+/// Steps in time, to the right or mirrored: to the next frame, the next key or the last frame.
+IconPaths time_step(bool to_key, bool to_end, bool back) {
+  IconPaths it;
+  add_play(it.ink, 5.0, to_key ? 5.0 : 7.5);
+  add_play(it.wash, 5.0, to_key ? 5.0 : 7.5);
+  if (to_end) add_line(it.accent, {{15.0, 4.5}, {15.0, 15.5}});
+  if (to_key) add_line(it.accent, {{14.0, 7.0}, {17.0, 10.0}, {14.0, 13.0}, {11.0, 10.0}}, true);
+  if (!back) return it;
+  const QTransform mirror(-1.0, 0.0, 0.0, 1.0, 20.0, 0.0);
+  it.ink = mirror.map(it.ink);
+  it.wash = mirror.map(it.wash);
+  it.accent = mirror.map(it.accent);
+  return it;
+}
+
+IconPaths play() {
+  IconPaths it;
+  add_line(it.ink, {{5.5, 3.0}, {16.5, 10.0}, {5.5, 17.0}}, true);
+  add_line(it.wash, {{5.5, 3.0}, {16.5, 10.0}, {5.5, 17.0}}, true);
+  return it;
+}
+
+IconPaths pause_bars() {
+  IconPaths it;
+  add_box(it.ink, 4.5, 3.5, 8.5, 16.5, 1.0);
+  add_box(it.ink, 11.5, 3.5, 15.5, 16.5, 1.0);
+  it.wash = it.ink;
+  return it;
+}
+
+/// A turn that comes back to where it began.
+IconPaths again() {
+  IconPaths it;
+  add_arc(it.ink, {10.0, 10.0}, 6.5, 6.5, 60.0, 285.0);
+  add_line(it.accent, {{13.2, 1.6}, {13.6, 4.6}, {10.6, 5.6}});
+  return it;
+}
+
+IconPaths record_dot() {
+  IconPaths it;
+  add_oval(it.ink, {10.0, 10.0}, 7.5, 7.5);
+  add_oval(it.accent, {10.0, 10.0}, 3.5, 3.5);
+  add_oval(it.wash, {10.0, 10.0}, 7.5, 7.5);
+  return it;
+}
+
+IconPaths speaker() {
+  IconPaths it;
+  const std::initializer_list<QPointF> horn{{2.5, 7.5}, {5.5, 7.5}, {9.5, 4.0}, {9.5, 16.0}, {5.5, 12.5}, {2.5, 12.5}};
+  add_line(it.ink, horn, true);
+  add_line(it.wash, horn, true);
+  add_arc(it.accent, {10.0, 10.0}, 3.5, 3.5, -45.0, 90.0);
+  add_arc(it.accent, {10.0, 10.0}, 7.0, 7.0, -45.0, 90.0);
+  return it;
+}
+
+/// Three sheets that shine through each other.
+IconPaths onion() {
+  IconPaths it;
+  add_oval(it.ink, {6.5, 10.0}, 4.5, 5.5);
+  add_oval(it.accent, {10.0, 10.0}, 4.5, 5.5);
+  add_oval(it.ink, {13.5, 10.0}, 4.5, 5.5);
+  add_oval(it.wash, {10.0, 10.0}, 4.5, 5.5);
+  return it;
+}
+
+IconPaths film_camera() {
+  IconPaths it;
+  add_box(it.ink, 2.5, 6.5, 12.5, 15.5, 1.5);
+  add_line(it.ink, {{12.5, 9.5}, {17.5, 6.5}, {17.5, 15.5}, {12.5, 12.5}});
+  add_oval(it.accent, {5.5, 4.0}, 1.8, 1.8);
+  add_oval(it.accent, {10.0, 4.0}, 1.8, 1.8);
+  add_box(it.wash, 2.5, 6.5, 12.5, 15.5, 1.5);
+  return it;
+}
+
+/// Paper that was cut out, and the pin that it turns about.
+IconPaths cut_cell() {
+  IconPaths it;
+  it.ink.moveTo(4.0, 16.5);
+  it.ink.cubicTo(1.5, 11.0, 4.5, 3.0, 10.0, 3.0);
+  it.ink.cubicTo(15.5, 3.0, 18.5, 11.0, 16.0, 16.5);
+  it.ink.cubicTo(13.0, 14.0, 7.0, 14.0, 4.0, 16.5);
+  it.wash = it.ink;
+  add_oval(it.accent, {10.0, 8.5}, 1.8, 1.8);
+  return it;
+}
+
+IconPaths add_key_mark() {
+  IconPaths it;
+  const std::initializer_list<QPointF> corners{{8.0, 4.0}, {14.0, 10.0}, {8.0, 16.0}, {2.0, 10.0}};
+  add_line(it.ink, corners, true);
+  add_line(it.wash, corners, true);
+  add_line(it.accent, {{16.0, 3.0}, {16.0, 9.0}});
+  add_line(it.accent, {{13.0, 6.0}, {19.0, 6.0}});
+  return it;
+}
+
+/// Two limbs that a pin holds together.
+IconPaths joint() {
+  IconPaths it;
+  add_line(it.ink, {{2.5, 15.5}, {10.0, 8.5}, {17.5, 15.5}});
+  add_oval(it.accent, {10.0, 7.0}, 3.0, 3.0);
+  return it;
+}
+
+IconPaths chain_of_joints() {
+  IconPaths it;
+  add_line(it.ink, {{3.0, 16.0}, {6.0, 9.0}, {12.0, 11.0}, {16.5, 4.5}});
+  add_oval(it.accent, {6.0, 9.0}, 1.8, 1.8);
+  add_oval(it.accent, {12.0, 11.0}, 1.8, 1.8);
+  return it;
+}
+
+IconPaths distance_limit() {
+  IconPaths it;
+  add_line(it.ink, {{3.0, 5.0}, {3.0, 15.0}});
+  add_line(it.ink, {{17.0, 5.0}, {17.0, 15.0}});
+  add_line(it.accent, {{4.5, 10.0}, {15.5, 10.0}});
+  add_line(it.accent, {{7.0, 7.5}, {4.5, 10.0}, {7.0, 12.5}});
+  add_line(it.accent, {{13.0, 7.5}, {15.5, 10.0}, {13.0, 12.5}});
+  return it;
+}
+
+IconPaths way() {
+  IconPaths it;
+  it.ink.moveTo(3.0, 15.0);
+  it.ink.cubicTo(7.0, 2.0, 12.0, 18.0, 17.0, 5.0);
+  add_oval(it.accent, {10.0, 10.0}, 2.2, 2.2);
+  return it;
+}
+
+IconPaths axis() {
+  IconPaths it;
+  add_line(it.ink, {{2.5, 17.5}, {6.5, 13.5}});
+  add_line(it.ink, {{8.5, 11.5}, {11.5, 8.5}});
+  add_line(it.ink, {{13.5, 6.5}, {17.5, 2.5}});
+  add_oval(it.accent, {10.0, 10.0}, 3.0, 3.0);
+  return it;
+}
+
 }  // namespace
 
 IconPaths paths_of(Icon which) {
@@ -578,6 +724,46 @@ IconPaths paths_of(Icon which) {
       return arrow_up(false);
     case Icon::Down:
       return arrow_up(true);
+    case Icon::First:
+      return time_step(false, true, true);
+    case Icon::PreviousKey:
+      return time_step(true, false, true);
+    case Icon::Previous:
+      return time_step(false, false, true);
+    case Icon::Play:
+      return play();
+    case Icon::Pause:
+      return pause_bars();
+    case Icon::Next:
+      return time_step(false, false, false);
+    case Icon::NextKey:
+      return time_step(true, false, false);
+    case Icon::Last:
+      return time_step(false, true, false);
+    case Icon::Again:
+      return again();
+    case Icon::Record:
+      return record_dot();
+    case Icon::Speaker:
+      return speaker();
+    case Icon::Onion:
+      return onion();
+    case Icon::Camera:
+      return film_camera();
+    case Icon::Cell:
+      return cut_cell();
+    case Icon::AddKey:
+      return add_key_mark();
+    case Icon::Joint:
+      return joint();
+    case Icon::Chain:
+      return chain_of_joints();
+    case Icon::Distance:
+      return distance_limit();
+    case Icon::Way:
+      return way();
+    case Icon::Axis:
+      return axis();
     case Icon::Shape:
     case Icon::Count:
       break;

@@ -1,0 +1,761 @@
+#include "ui/cutout/cutout_window.h"
+
+#include <fmt/format.h>
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QInputDialog>
+#include <QLabel>
+#include <QMenuBar>
+#include <QPushButton>
+#include <QStatusBar>
+#include <QTabWidget>
+#include <QToolBar>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "ui/actions/actions.h"
+#include "ui/cutout/run_cutout.h"
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+#include "ui/panels/column_area.h"
+#include "ui/panels/object_look.h"
+#include "ui/window/connect_display.h"
+#include "ui/window/shortcut_sheet.h"
+
+namespace icome::ui {
+namespace {
+
+constexpr int kPanelWidth = 78 * kGrid;
+constexpr int kTimeHeight = 62 * kGrid;
+constexpr double kStageZoomStep = 1.25;
+constexpr int kWordsStay = 6000;  // ms
+constexpr const char* kNoCutoutDisplayWays =
+    "`icome animate` changes an animation without one, and exports it.";
+constexpr const char* kHint =
+    "Drag a cell to move it; the handles turn and scale it. Space: next pose. F1: all keys.";
+
+std::unique_ptr<QSettings> settings_in(const QString& file) {
+  auto settings = file.isEmpty() ? std::make_unique<QSettings>("icome", "icome")
+                                 : std::make_unique<QSettings>(file, QSettings::IniFormat);
+  settings->beginGroup("animation");
+  return settings;
+}
+
+ShortcutSheet::Part stage_part() {
+  return {"On the stage",
+          {{"Select a cell; more with Shift", "Click"},
+           {"Select those within a frame", "Drag from an empty place"},
+           {"Move; with Shift along one axis", "Drag a cell"},
+           {"Turn; with Shift in steps of 15\u00b0", "Drag the round handle"},
+           {"Scale", "Drag a corner"},
+           {"Move the pivot", "Drag the cross"},
+           {"Move by 1 px, by 10 px", "Arrow keys, with Shift"},
+           {"Zoom", "Wheel"},
+           {"Shift the view", "Middle drag"},
+           {"Back out", "Esc"}}};
+}
+
+ShortcutSheet::Part time_part() {
+  return {"Timeline and exposure sheet",
+          {{"Go to a frame", "Click or drag in the ruler"},
+           {"Move keys", "Drag them"},
+           {"Select keys; more with Shift", "Click, or drag a frame"},
+           {"Zoom the timeline", "Ctrl and wheel"},
+           {"Show channels", "Click the mark before a cell"},
+           {"Write a mark", "Double click in its row or column"},
+           {"Expose a picture in the sheet", "Its number and Enter; 0: none"},
+           {"Choose from the list of pictures", "Enter or double click"}}};
+}
+
+}  // namespace
+
+CutoutWindow::CutoutWindow(const QString& settings, QWidget* parent)
+    : QMainWindow(parent),
+      settings_(settings_in(settings)),
+      recent_(*settings_),
+      files_(document_, *this),
+      transport_(document_),
+      sounds_([this](const SoundLoader::Loaded& loaded) {
+        transport_.use_samples(loaded.samples);
+        timeline_->show_sound(loaded.shape);
+        sheet_->show_sound(loaded.shape);
+        if (!loaded.problem.empty())
+          tell({.weight = Note::Weight::Warning, .text = loaded.problem, .topic = "sound"});
+      }) {
+  setObjectName("cutout");
+  make_center();
+  make_docks();
+  make_status();
+  make_file_menu(*menuBar()->addMenu("&File"));
+  make_edit_menu(*menuBar()->addMenu("&Edit"));
+  make_cell_menu(*menuBar()->addMenu("&Cell"));
+  make_frame_menu(*menuBar()->addMenu("F&rame"));
+  make_view_menu(*menuBar()->addMenu("&View"));
+  make_help_menu(*menuBar()->addMenu("&Help"));
+  make_bars();
+  files_.on_note([this](const Note& note) { tell(note); });
+  files_.on_used([this](const std::filesystem::path& file) {
+    recent_.add(file);
+    fill_recent();
+  });
+  files_.on_progress([this](double part) {
+    if (part < 0.0) return banner_->hide_progress();
+    banner_->show_progress("Exporting the animation", part, [this] { files_.cancel_export(); });
+  });
+  document_.on_change([this](CutoutChange change) { hear(change); });
+  document_.on_remark([this](const std::string& remark) { tell_remark(remark); });
+  transport_.on_state([this] { show_state(); });
+  resize(1360, 900);
+  resizeDocks(findChildren<QDockWidget*>(), {kPanelWidth, kPanelWidth, kPanelWidth, kPanelWidth}, Qt::Horizontal);
+  show_project();
+  show_state();
+  stage_->setFocus();
+}
+
+CutoutWindow::~CutoutWindow() {
+  document_.on_change([](CutoutChange) {});
+  transport_.on_state([] {});
+}
+
+// Making.
+
+void CutoutWindow::make_center() {
+  auto* center = new QWidget(this);
+  banner_ = new Banner(center);
+  stage_ = new StageView(document_, look_, center);
+  stage_->on_pointer([this](const animation::Vector2& place) {
+    place_->setText(QString("%1, %2 px").arg(place.x(), 0, 'f', 0).arg(place.y(), 0, 'f', 0));
+  });
+  stage_->on_drop([this](const std::vector<std::filesystem::path>& files) { files_.take_dropped(files); });
+  stage_->on_question([this](const QString& question) { hint_->setText(question.isEmpty() ? QString(kHint) : question); });
+  stage_->on_menu([this](QPoint at) { cell_menu_->popup(at); });
+  bar_ = new PlayBar(document_, look_, center);
+  bar_->on_look([this] { apply_look(); });
+  auto* rows = new QVBoxLayout(center);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(0);
+  rows->addWidget(banner_);
+  rows->addWidget(stage_, 1);
+  rows->addWidget(bar_);
+  setCentralWidget(center);
+}
+
+void CutoutWindow::make_docks() {
+  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  const auto dock = [this](const char* name, const QString& title, QWidget* content, Qt::DockWidgetArea area) {
+    auto* made = new QDockWidget(title, this);
+    made->setObjectName(name);
+    made->setWidget(content);
+    addDockWidget(area, made);
+    return made;
+  };
+  cells_ = new CellTree(document_, this);
+  cells_->on_add([this] { files_.choose_pictures(false); });
+  cells_->on_import([this] { files_.choose_folder(true); });
+  dock("dock.cells", "Layers and Cells", cells_, Qt::RightDockWidgetArea);
+  auto* column = new ColumnArea(this);
+  auto* panels = new QWidget(column);
+  auto* rows = new QVBoxLayout(panels);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(0);
+  cell_ = new CellPanel(document_, panels);
+  maker_ = std::make_unique<ConstraintMaker>(document_, *stage_);
+  constraints_ = new ConstraintPanel(document_, *maker_, panels);
+  stage_panel_ = new StagePanel(document_, look_, panels);
+  stage_panel_->on_look([this] { apply_look(); });
+  rows->addWidget(cell_);
+  rows->addWidget(constraints_);
+  rows->addWidget(stage_panel_);
+  rows->addStretch();
+  column->setWidget(panels);
+  column->setWidgetResizable(true);
+  dock("dock.values", "Values", column, Qt::RightDockWidgetArea);
+  time_ = new QTabWidget(this);
+  time_->setObjectName("time");
+  time_->setDocumentMode(true);
+  timeline_ = new Timeline(document_, time_);
+  timeline_->on_menu([this](QPoint at) { key_menu_->popup(at); });
+  timeline_->on_mark([this](int frame) { ask_mark(frame); });
+  sheet_ = new ExposureSheet(document_, time_);
+  sheet_->on_mark([this](int frame) { ask_mark(frame); });
+  time_->addTab(timeline_, "Timeline");
+  time_->addTab(sheet_, "Exposure sheet");
+  QDockWidget* const below = dock("dock.time", "Time", time_, Qt::BottomDockWidgetArea);
+  resizeDocks({below}, {kTimeHeight}, Qt::Vertical);
+}
+
+void CutoutWindow::make_status() {
+  const auto label = [this](const char* name, const char* meaning) {
+    auto* made = new QLabel(this);
+    made->setObjectName(name);
+    made->setAccessibleName(meaning);
+    return made;
+  };
+  hint_ = label("status.hint", "Hint");
+  hint_->setText(kHint);
+  place_ = label("status.place", "Place on the stage");
+  count_ = label("status.count", "Cells and keys");
+  statusBar()->addWidget(hint_, 1);
+  statusBar()->addPermanentWidget(place_);
+  statusBar()->addPermanentWidget(count_);
+}
+
+QAction* CutoutWindow::add(QMenu& menu, const char* name, const char* text, const QKeySequence& keys,
+                           const Act& act) {
+  return add_action(menu, name, text, keys, act);
+}
+
+QAction* CutoutWindow::add_switch(QMenu& menu, const char* name, const char* text, const QKeySequence& keys,
+                                  bool& flag, const char* tip) {
+  QAction* const made = add_action(menu, name, text, keys, [] {});
+  made->setCheckable(true);
+  made->setChecked(flag);
+  made->setStatusTip(tip);
+  made->setToolTip(tip);
+  connect(made, &QAction::toggled, this, [this, &flag](bool on) {
+    flag = on;
+    apply_look();
+  });
+  return made;
+}
+
+/// Lets the keys of an action be its own only over the stage and time, so that panels have theirs.
+void CutoutWindow::only_here(QAction& action) {
+  action.setShortcutContext(Qt::WidgetWithChildrenShortcut);
+  for (QWidget* place : {static_cast<QWidget*>(stage_), static_cast<QWidget*>(time_)}) place->addAction(&action);
+}
+
+void CutoutWindow::make_file_menu(QMenu& menu) {
+  add(menu, "file.new", "&New Animation", QKeySequence::New, [] { open_cutout_window({}); })
+      ->setIcon(icon(Icon::New));
+  open_ = add(menu, "file.open", "&Open\u2026", QKeySequence::Open, [this] { files_.choose_and_open(); });
+  open_->setIcon(icon(Icon::Open));
+  recent_menu_ = menu.addMenu("Open &Recent");
+  recent_menu_->setObjectName("file.recent");
+  fill_recent();
+  menu.addSeparator();
+  save_ = add(menu, "file.save", "&Save", QKeySequence::Save, [this] { files_.save(); });
+  save_->setIcon(icon(Icon::Save));
+  add(menu, "file.save_as", "Save &As\u2026", QKeySequence("Ctrl+Shift+S"), [this] { files_.save_as(); });
+  menu.addSeparator();
+  add(menu, "file.import_cell", "Import a &Folder as One Cell\u2026", QKeySequence("Ctrl+Shift+I"),
+      [this] { files_.choose_folder(true); });
+  add(menu, "file.import_cells", "Import a Folder as &Cells\u2026", {}, [this] { files_.choose_folder(false); });
+  add(menu, "file.sound", "So&und\u2026", {}, [this] { files_.choose_sound(); });
+  add(menu, "file.silence", "Take the Sound Away", {}, [this] { document_.perform(cutout_command("silence")); });
+  menu.addSeparator();
+  add(menu, "file.export", "&Export\u2026", QKeySequence("Ctrl+E"), [this] { choose_export(); });
+  menu.addSeparator();
+  add(menu, "file.close", "C&lose", QKeySequence("Ctrl+Q"), [this] { close(); });
+}
+
+void CutoutWindow::fill_recent() {
+  recent_menu_->clear();
+  const QStringList labels = recent_.labels();
+  for (qsizetype i = 0; i < labels.size(); ++i) {
+    const QString path = recent_.paths()[i];
+    recent_menu_->addAction(QString(labels[i]).replace("&", "&&"), this, [this, path] {
+      files_.when_safe([this, path] { files_.open(path_of(path)); });
+    });
+  }
+  recent_menu_->setEnabled(!labels.isEmpty());
+}
+
+void CutoutWindow::make_edit_menu(QMenu& menu) {
+  undo_ = add(menu, "edit.undo", "&Undo", QKeySequence::Undo, [this] { document_.undo(); });
+  undo_->setIcon(icon(Icon::Undo));
+  redo_ = add(menu, "edit.redo", "&Redo", QKeySequence::Redo, [this] { document_.redo(); });
+  redo_->setShortcuts({QKeySequence("Ctrl+Shift+Z"), QKeySequence("Ctrl+Y")});
+  redo_->setIcon(icon(Icon::Redo));
+  menu.addSeparator();
+  add(menu, "edit.copy", "&Copy Keys", QKeySequence::Copy, [this] { copy_keys(); });
+  paste_ = add(menu, "edit.paste", "&Paste Keys", QKeySequence::Paste, [this] { paste_keys(); });
+  QAction* const remove = add(menu, "edit.delete", "De&lete", QKeySequence::Delete, [this] { delete_selected(); });
+  remove->setIcon(icon(Icon::Delete));
+  menu.addSeparator();
+  add(menu, "edit.select_all", "Select &All Cells", QKeySequence::SelectAll, [this] {
+    std::vector<CellId> cells;
+    for (const animation::Layer& layer : document_.project().layers)
+      for (const animation::Cell& cell : layer.cells)
+        if (layer.visible && !layer.locked) cells.push_back(cell.id);
+    document_.select(std::move(cells));
+  });
+  add(menu, "edit.deselect", "Select &Nothing", QKeySequence("Ctrl+Shift+A"), [this] {
+    document_.select_keys({});
+    document_.select({});
+  });
+  add(menu, "edit.select_camera", "Select the Ca&mera", {}, [this] { document_.select({animation::kCamera}); });
+}
+
+void CutoutWindow::make_cell_menu(QMenu& menu) {
+  cell_menu_ = &menu;
+  QAction* const pictures = add(menu, "cell.add", "&Add Cells from Pictures\u2026", QKeySequence("Ctrl+I"),
+                                [this] { files_.choose_pictures(false); });
+  pictures->setIcon(icon(Icon::Cell));
+  add(menu, "cell.add_one", "Add &One Cell with Several Pictures\u2026", {}, [this] { files_.choose_pictures(true); });
+  of_selection_.push_back(
+      add(menu, "cell.more", "&More Pictures for the Cell\u2026", {}, [this] { files_.choose_more_pictures(); }));
+  add(menu, "cell.layer", "New &Layer", QKeySequence("Ctrl+Shift+N"), [this] { cells_->add_layer(); });
+  menu.addSeparator();
+  of_selection_.push_back(add(menu, "cell.rename", "&Rename", QKeySequence("F2"), [this] { cells_->rename(); }));
+  of_selection_.push_back(add(menu, "cell.duplicate", "&Duplicate", QKeySequence("Ctrl+D"), [this] {
+    const animation::Cell* const cell = document_.leading();
+    if (cell != nullptr) document_.perform(cutout_command("copy-cell", {{"cell", cell->name}}));
+  }));
+  of_selection_.back()->setIcon(icon(Icon::Duplicate));
+  of_selection_.push_back(add(menu, "cell.front", "Bring to the &Front", QKeySequence("Ctrl+]"),
+                              [this] { cells_->move_chosen(1); }));
+  of_selection_.push_back(add(menu, "cell.back", "Send to the &Back", QKeySequence("Ctrl+["),
+                              [this] { cells_->move_chosen(-1); }));
+  of_selection_.push_back(add(menu, "cell.delete", "D&elete", {}, [this] { cells_->delete_chosen(); }));
+  menu.addSeparator();
+  make_constraint_menu(*menu.addMenu("&Constraints"));
+}
+
+void CutoutWindow::make_constraint_menu(QMenu& menu) {
+  const auto constrain = [&](const char* name, const char* text, Icon picture, const Act& act) {
+    of_selection_.push_back(add(menu, name, text, {}, act));
+    of_selection_.back()->setIcon(icon(picture));
+  };
+  constrain("cell.join", "&Join Two Cells", Icon::Joint, [this] { maker_->join(); });
+  constrain("cell.chain", "&Chain to the Cell", Icon::Chain, [this] { maker_->chain(); });
+  constrain("cell.distance", "Keep the &Distance", Icon::Distance, [this] { maker_->keep_distance(); });
+  constrain("cell.path", "Follow a &Path", Icon::Way, [this] { maker_->guide_by_path(false); });
+  constrain("cell.turning_path", "Follow a Path, &Turning", Icon::Way, [this] { maker_->guide_by_path(true); });
+  constrain("cell.axis", "Stay on an &Axis", Icon::Axis, [this] { maker_->guide_by_axis(); });
+  menu.addSeparator();
+  constrain("cell.release", "&Release", Icon::Delete, [this] { maker_->release(); });
+}
+
+void CutoutWindow::make_frame_menu(QMenu& menu) {
+  pose_ = add(menu, "frame.pose", "Next &Pose", QKeySequence("Space"), [this] { pose_and_go_on(); });
+  pose_->setStatusTip("Keys what was moved, and goes on to the next frame");
+  only_here(*pose_);
+  make_key_menu(*menu.addMenu("&Keys"));
+  menu.addSeparator();
+  make_play_menu(menu);
+  menu.addSeparator();
+  make_step_menu(*menu.addMenu("&Go to"));
+  add(menu, "frame.mark", "&Mark\u2026", QKeySequence("M"), [this] {
+    // While it plays, beats are tapped.
+    if (transport_.is_still()) return ask_mark(document_.frame());
+    set_mark(document_.frame(), QString::fromUtf8("\u2022"));
+  });
+  of_still_.push_back(add(menu, "frame.insert", "&Insert a Frame", QKeySequence("Ctrl+Ins"), [this] {
+    document_.perform(cutout_command("insert-frames", {{"frame", document_.frame()}}));
+  }));
+  of_still_.push_back(add(menu, "frame.remove", "Take the Frame &Out", QKeySequence("Ctrl+Del"), [this] {
+    document_.perform(cutout_command("delete-frames", {{"frame", document_.frame()}}));
+  }));
+}
+
+void CutoutWindow::make_key_menu(QMenu& menu) {
+  key_menu_ = &menu;
+  QAction* const hold =
+      add(menu, "key.hold", "Set &Keys Here", QKeySequence("K"), [this] { hold_here(); });
+  hold->setIcon(icon(Icon::AddKey));
+  hold->setToolTip("Set keys of the selected cells here, so that they stay so");
+  menu.addSeparator();
+  add(menu, "key.ease_hold", "&Hold", QKeySequence("Alt+1"), [this] { ease_chosen(animation::Ease::Hold); });
+  add(menu, "key.ease_straight", "&Straight", QKeySequence("Alt+2"),
+      [this] { ease_chosen(animation::Ease::Straight); });
+  add(menu, "key.ease_eased", "&Eased", QKeySequence("Alt+3"), [this] { ease_chosen(animation::Ease::Eased); });
+  menu.addSeparator();
+  add(menu, "key.copy", "&Copy", {}, [this] { copy_keys(); });
+  add(menu, "key.paste", "&Paste Here", {}, [this] { paste_keys(); });
+  add(menu, "key.delete", "&Delete Keys", QKeySequence("Shift+Del"), [this] {
+    const KeyPlaces keys = document_.keys().empty()
+                               ? keys_at(document_.project(), document_.selection(), document_.frame())
+                               : document_.keys();
+    document_.perform(deleted_keys(document_.project(), keys));
+  });
+}
+
+void CutoutWindow::make_play_menu(QMenu& menu) {
+  play_ = add(menu, "frame.play", "P&lay", QKeySequence("P"), [this] {
+    transport_.is_still() ? transport_.play() : transport_.stop();
+  });
+  QAction* const again = add(menu, "frame.again", "Play A&gain and Again", QKeySequence("L"), [] {});
+  again->setCheckable(true);
+  again->setIcon(icon(Icon::Again));
+  connect(again, &QAction::toggled, this, [this](bool on) { transport_.play_again(on); });
+  QAction* const sound = add(menu, "frame.sound", "With &Sound", QKeySequence("Ctrl+Shift+M"), [] {});
+  sound->setCheckable(true);
+  sound->setChecked(true);
+  sound->setIcon(icon(Icon::Speaker));
+  connect(sound, &QAction::toggled, this, [this](bool on) { transport_.set_sound(on); });
+  record_ = add(menu, "frame.record", "&Record", QKeySequence("R"), [this] { record(false); });
+  record_->setIcon(icon(Icon::Record));
+  record_->setToolTip("Record what the hands or the mouse do, after a count-in");
+  add(menu, "frame.record_layer", "Record This La&yer Only", QKeySequence("Shift+R"), [this] { record(true); });
+  QAction* const count = add(menu, "frame.count_in", "&Count In", {}, [] {});
+  count->setCheckable(true);
+  count->setChecked(true);
+  connect(count, &QAction::toggled, this, [this](bool on) { transport_.set_count_in(on ? 4 : 0); });
+  runs_ = {play_, again, record_, sound};
+}
+
+void CutoutWindow::make_step_menu(QMenu& menu) {
+  const auto step = [&](const char* name, const char* text, const char* keys, Icon picture, const Act& act) {
+    QAction* const made = add(menu, name, text, QKeySequence(keys), act);
+    made->setIcon(icon(picture));
+    made->setToolTip(QString("%1 (%2)").arg(QString(text).remove('&'), keys));
+    steps_.push_back(made);
+  };
+  step("frame.first", "&First Frame", "Home", Icon::First, [this] { document_.go_to(0); });
+  step("frame.previous_key", "Key Be&fore", "Ctrl+,", Icon::PreviousKey, [this] {
+    if (const auto frame = key_before(document_.project(), document_.selection(), document_.frame()))
+      document_.go_to(*frame);
+  });
+  step("frame.previous", "Frame &Before", ",", Icon::Previous, [this] { document_.go_to(document_.frame() - 1); });
+  step("frame.next", "&Next Frame", ".", Icon::Next, [this] { document_.go_to(document_.frame() + 1); });
+  step("frame.next_key", "Next &Key", "Ctrl+.", Icon::NextKey, [this] {
+    if (const auto frame = next_key(document_.project(), document_.selection(), document_.frame()))
+      document_.go_to(*frame);
+  });
+  step("frame.last", "&Last Frame", "End", Icon::Last, [this] { document_.go_to(document_.last_frame()); });
+}
+
+void CutoutWindow::make_view_menu(QMenu& menu) {
+  add(menu, "view.fit", "&Whole Stage", QKeySequence("Ctrl+0"), [this] { stage_->fit(); })
+      ->setIcon(icon(Icon::ZoomToSelection));
+  add(menu, "view.closer", "&Closer", QKeySequence::ZoomIn, [this] { stage_->zoom(kStageZoomStep); });
+  add(menu, "view.farther", "&Farther", QKeySequence::ZoomOut, [this] { stage_->zoom(1.0 / kStageZoomStep); });
+  menu.addSeparator();
+  add_switch(menu, "view.onion", "&Onion Skin", QKeySequence("O"), look_.onion,
+             "Shows the poses before and after faintly")
+      ->setIcon(icon(Icon::Onion));
+  add_switch(menu, "view.camera", "Through the Ca&mera", QKeySequence("C"), look_.through_camera,
+             "Shows what the camera films")
+      ->setIcon(icon(Icon::Camera));
+  add_switch(menu, "view.camera_frame", "The Camera\u2019s F&rame", {}, look_.camera_frame,
+             "Frames on the stage what the camera sees");
+  add_switch(menu, "view.constraints", "Co&nstraints", {}, look_.constraints, "Draws joints, paths and the like");
+  menu.addSeparator();
+  add(menu, "view.timeline", "&Timeline", QKeySequence("F3"), [this] {
+    time_->setCurrentWidget(timeline_);
+    timeline_->setFocus();
+  });
+  add(menu, "view.sheet", "E&xposure Sheet", QKeySequence("F4"), [this] {
+    time_->setCurrentWidget(sheet_);
+    sheet_->setFocus();
+  });
+  add(menu, "view.all_frames", "&All Frames", {}, [this] { timeline_->fit(); });
+  add(menu, "view.longer", "Timeline Closer", QKeySequence("Ctrl+Shift++"), [this] { timeline_->zoom(kStageZoomStep); });
+  add(menu, "view.shorter", "Timeline Farther", QKeySequence("Ctrl+Shift+-"),
+      [this] { timeline_->zoom(1.0 / kStageZoomStep); });
+  menu.addSeparator();
+  for (QDockWidget* dock : findChildren<QDockWidget*>()) {
+    dock->toggleViewAction()->setObjectName("view." + dock->objectName());
+    menu.addAction(dock->toggleViewAction());
+  }
+}
+
+void CutoutWindow::make_help_menu(QMenu& menu) {
+  add(menu, "help.shortcuts", "&Keys and Mouse", QKeySequence("F1"), [this] { show_shortcuts(); })
+      ->setIcon(icon(Icon::Help));
+}
+
+void CutoutWindow::make_bars() {
+  QToolBar* const bar = addToolBar("Tools");
+  bar->setObjectName("toolbar");
+  bar->addActions({open_, save_});
+  bar->addSeparator();
+  bar->addActions({undo_, redo_});
+  bar->addSeparator();
+  bar->addActions({action("cell.add"), action("key.hold")});
+  bar->addSeparator();
+  bar->addActions({action("view.onion"), action("view.camera")});
+  bar->addSeparator();
+  bar->addActions({action("cell.join"), action("cell.chain"), action("cell.distance"), action("cell.path"),
+                   action("cell.axis")});
+  bar->addSeparator();
+  bar->addAction(action("view.fit"));
+  std::vector<QAction*> before(steps_.begin(), steps_.begin() + 3), after(steps_.begin() + 3, steps_.end());
+  std::vector<QAction*> middle = before;
+  middle.push_back(play_);
+  middle.insert(middle.end(), after.begin(), after.end());
+  bar_->add_actions(middle);
+  bar_->add_actions({runs_.begin() + 1, runs_.end()});
+  bar_->add_choices();
+}
+
+QAction* CutoutWindow::action(const char* name) const { return findChild<QAction*>(name); }
+
+// Showing.
+
+void CutoutWindow::hear(CutoutChange change) {
+  switch (change) {
+    case CutoutChange::Project:
+      return show_project();
+    case CutoutChange::Frame:
+      return show_frame();
+    case CutoutChange::Pose:
+      stage_->refresh();
+      return cell_->refresh();
+    case CutoutChange::Selection:
+      return show_selection();
+  }
+}
+
+void CutoutWindow::show_project() {
+  const animation::Project& project = document_.project();
+  sounds_.follow(document_);
+  cells_->refresh();
+  timeline_->refresh();
+  sheet_->refresh();
+  constraints_->refresh();
+  stage_panel_->refresh();
+  std::size_t keys = 0;
+  for (const animation::Cell* cell : cells_from_front(project))
+    for (const animation::Track& track : cell->tracks) keys += track.size();
+  const std::size_t cells = project.cell_count();
+  count_->setText(QString("%L1 %2, %L3 %4")
+                      .arg(cells)
+                      .arg(cells == 1 ? "cell" : "cells")
+                      .arg(keys)
+                      .arg(keys == 1 ? "key" : "keys"));
+  action("file.silence")->setEnabled(project.sound.has_value());
+  show_title();
+  show_frame();
+  show_selection();
+}
+
+void CutoutWindow::show_frame() {
+  stage_->follow_frame();
+  timeline_->follow_frame();
+  sheet_->follow_frame();
+  bar_->refresh();
+  cell_->refresh();
+}
+
+void CutoutWindow::show_selection() {
+  cells_->follow_selection();
+  cell_->refresh();
+  timeline_->viewport()->update();
+  sheet_->viewport()->update();
+  stage_->update();
+  for (QAction* it : of_selection_) it->setEnabled(!document_.selection().empty());
+}
+
+void CutoutWindow::show_title() {
+  setWindowTitle(files_.name() + "[*] - ICOME");
+  setWindowModified(document_.is_modified());
+  const bool is_still = transport_.is_still();
+  undo_->setEnabled(is_still && document_.can_undo());
+  redo_->setEnabled(is_still && document_.can_redo());
+}
+
+void CutoutWindow::show_state() {
+  const Transport::State state = transport_.state();
+  const bool is_still = transport_.is_still();
+  play_->setText(is_still ? "P&lay" : "S&top");
+  play_->setIcon(icon(is_still ? Icon::Play : Icon::Pause));
+  play_->setToolTip(is_still ? "Play (P)" : "Stop (P)");
+  const bool records = state == Transport::State::CountIn || state == Transport::State::Recording;
+  stage_->show_words(transport_.beats() > 0 ? QString::number(transport_.beats()) : QString());
+  stage_->show_recording(records);
+  for (QAction* it : of_still_) it->setEnabled(is_still);
+  record_->setEnabled(is_still || records);
+  action("frame.record_layer")->setEnabled(is_still);
+  show_title();
+}
+
+void CutoutWindow::apply_look() { stage_->refresh(); }
+
+void CutoutWindow::tell(const Note& note) {
+  banner_->forget(note.topic);
+  // A banner that comes and goes by itself would move the stage under the mouse.
+  note.weight == Note::Weight::Passing ? statusBar()->showMessage(one_line(note.text), kWordsStay)
+                                       : banner_->tell(note);
+}
+
+void CutoutWindow::tell_remark(const std::string& remark) {
+  remark.empty() ? statusBar()->clearMessage() : statusBar()->showMessage(one_line(remark), kWordsStay);
+}
+
+// What the menus do.
+
+void CutoutWindow::pose_and_go_on() {
+  if (!transport_.is_still()) return transport_.stop();
+  document_.keep();
+  const int next = document_.frame() + look_.step;
+  if (next > document_.last_frame() && next < animation::kLongestAnimation) {
+    animation::Stage longer = document_.project().stage;
+    longer.length = next + 1;
+    document_.perform(animation::ProjectEdit{animation::ChangeStage{longer}});
+  }
+  document_.go_to(next);
+}
+
+void CutoutWindow::hold_here() {
+  if (document_.tried()) document_.keep();
+  if (document_.selection().empty()) return document_.remark("Select the cells that are to get keys.");
+  document_.perform(held_keys(document_.project(), document_.selection(),
+                              {animation::kAllChannels.begin(), animation::kAllChannels.end()}, document_.frame()));
+}
+
+void CutoutWindow::ease_chosen(animation::Ease ease) {
+  const KeyPlaces keys = document_.keys().empty()
+                             ? keys_at(document_.project(), document_.selection(), document_.frame())
+                             : document_.keys();
+  if (keys.empty()) return document_.remark("There is no key here. Select keys in the timeline.");
+  document_.perform(eased_keys(document_.project(), keys, ease));
+}
+
+void CutoutWindow::copy_keys() {
+  const KeyPlaces keys = document_.keys().empty()
+                             ? keys_at(document_.project(), document_.selection(), document_.frame())
+                             : document_.keys();
+  if (keys.empty()) return document_.remark("There is no key here. Select keys in the timeline.");
+  copied_ = copied_keys(document_.project(), keys);
+  document_.remark(fmt::format("Copied {} {}.", keys.size(), keys.size() == 1 ? "key" : "keys"));
+}
+
+void CutoutWindow::paste_keys() {
+  if (copied_.pieces.empty()) return document_.remark("Copy keys first.");
+  document_.perform(pasted_keys(document_.project(), copied_, document_.frame(), document_.selection()));
+}
+
+void CutoutWindow::delete_selected() {
+  const QWidget* const focus = QApplication::focusWidget();
+  const auto is_in = [&](const QWidget* part) { return focus == part || (focus != nullptr && part->isAncestorOf(focus)); };
+  if (is_in(sheet_)) {
+    const animation::Cell* const cell = document_.leading();
+    if (cell != nullptr)
+      document_.perform(
+          deleted_keys(document_.project(), {{cell->id, Channel::Picture, document_.frame()}}));
+    return;
+  }
+  if (is_in(timeline_) || document_.selection().empty()) {
+    if (!document_.keys().empty()) document_.perform(deleted_keys(document_.project(), document_.keys()));
+    return;
+  }
+  cells_->delete_chosen();
+}
+
+void CutoutWindow::record(bool only_layer) {
+  if (!transport_.is_still()) return transport_.stop();
+  std::optional<animation::LayerId> layer;
+  if (only_layer) {
+    const animation::Cell* const cell = document_.leading();
+    const animation::Layer* const its = cell ? document_.project().layer_of(cell->id) : nullptr;
+    if (its == nullptr) return document_.remark("Select a cell of the layer that is to be recorded.");
+    layer = its->id;
+  }
+  transport_.record(layer);
+}
+
+void CutoutWindow::set_mark(int frame, const QString& text) {
+  const std::string words = text.trimmed().toStdString();
+  animation::ChangeMark change{.frame = frame, .text = std::nullopt};
+  if (!words.empty()) change.text = words;
+  document_.perform(animation::ProjectEdit{change});
+}
+
+void CutoutWindow::ask_mark(int frame) {
+  auto* dialog = new QInputDialog(this);
+  dialog->setObjectName("cutout.mark");
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setWindowTitle("Mark");
+  dialog->setLabelText(QString("Word at frame %1, such as a sound of speech; empty takes it away:").arg(frame));
+  for (const animation::Mark& mark : document_.project().marks)
+    if (mark.frame == frame) dialog->setTextValue(QString::fromStdString(mark.text));
+  connect(dialog, &QInputDialog::textValueSelected, this, [=, this](const QString& text) { set_mark(frame, text); });
+  dialog->open();
+}
+
+void CutoutWindow::choose_export() {
+  if (document_.project().cell_count() == 0) return document_.remark("There is nothing to export yet.");
+  files_.choose_and_export({});
+}
+
+void CutoutWindow::show_shortcuts() {
+  std::vector<ShortcutSheet::Part> parts = {stage_part(), time_part()};
+  const auto add_part = [&](const QString& heading, const QMenu& menu) {
+    auto part = ShortcutSheet::of_actions(heading, menu.actions());
+    if (!part.rows.empty()) parts.push_back(std::move(part));
+  };
+  for (QAction* it : menuBar()->actions()) {
+    add_part(it->text().remove('&'), *it->menu());
+    for (QAction* below : it->menu()->actions())
+      if (below->menu() && below->menu() != recent_menu_) add_part(below->text().remove('&'), *below->menu());
+  }
+  auto* sheet = new ShortcutSheet(parts, this);
+  sheet->setAttribute(Qt::WA_DeleteOnClose);
+  sheet->open();
+}
+
+// Closing and opening.
+
+void CutoutWindow::offer_lost() {
+  lost_ = lost_animations();
+  if (lost_.empty()) return;
+  banner_->on_remedy([this](const Note& note, Note::Remedy remedy) {
+    if (remedy == Note::Remedy::DiscardJournal) return forget_lost_animation(note.journal);
+    if (remedy != Note::Remedy::Recover) return;
+    files_.when_safe([this, kept = note.journal] {
+      const auto recovered = document_.recover(kept);
+      if (!recovered) return tell({.weight = Note::Weight::Error, .text = recovered.error().message, .topic = "file"});
+      tell({.text = "Your work was recovered. Save it to keep it.", .topic = "file"});
+    });
+  });
+  for (const std::filesystem::path& kept : lost_) {
+    std::error_code error;
+    const auto written = std::filesystem::last_write_time(animation::journal_of(kept), error);
+    const auto when = std::chrono::time_point_cast<std::chrono::system_clock::duration>(
+        std::chrono::file_clock::to_sys(error ? std::filesystem::last_write_time(kept, error) : written));
+    banner_->tell({.weight = Note::Weight::Warning,
+                   .text = "There is work on an animation from " + time_text(when, std::chrono::system_clock::now()) +
+                           " that was never saved.",
+                   .topic = kept.string(),
+                   .remedies = {Note::Remedy::Recover, Note::Remedy::DiscardJournal},
+                   .journal = kept});
+  }
+}
+
+void CutoutWindow::closeEvent(QCloseEvent* event) {
+  transport_.stop();
+  if (agreed_ || !document_.is_modified()) {
+    document_.close();
+    return event->accept();
+  }
+  event->ignore();
+  files_.when_safe([this] {
+    agreed_ = true;
+    close();
+  });
+}
+
+void open_cutout_window(const std::filesystem::path& file) {
+  auto* window = new CutoutWindow;
+  window->setAttribute(Qt::WA_DeleteOnClose);
+  window->show();
+  if (!file.empty()) window->open(file);
+  window->offer_lost();
+}
+
+void choose_cutout(QWidget& parent) {
+  auto* dialog = new QFileDialog(&parent, "Open an Animation");
+  dialog->setObjectName("cutout.open");
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  dialog->setNameFilters(cutout_open_filters());
+  QObject::connect(dialog, &QFileDialog::fileSelected, &parent,
+                   [](const QString& path) { open_cutout_window(path_of(path)); });
+  dialog->open();
+}
+
+int run_cutout_window(int argc, char** argv, const CutoutWindowOptions& options) {
+  const auto application = connect_display(argc, argv, kNoCutoutDisplayWays);
+  if (!application) return 1;
+  const std::string kept = QSettings("icome", "icome").value("theme").toString().toStdString();
+  apply_theme(*application, theme_of(options.theme.empty() ? kept : options.theme).value_or(Theme::System));
+  open_cutout_window(options.file);
+  return QApplication::exec();
+}
+
+}  // namespace icome::ui
