@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ui/actions/actions.h"
+#include "ui/cutout/run_cutout.h"
 #include "ui/look/icons.h"
 #include "ui/panels/object_look.h"
 #include "ui/sharing/connect_dialog.h"
@@ -119,6 +120,7 @@ void FileActions::make_new() {
 
 void FileActions::open(const std::filesystem::path& design) {
   if (session::SessionSharing::is_address(design.string())) return open_address(text_of(design));
+  if (is_cutout_file(design)) return open_cutout_window(design);
   when_safe([this, design] {
     std::error_code ignored;
     const auto whole = std::filesystem::absolute(design, ignored);

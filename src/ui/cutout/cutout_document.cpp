@@ -159,15 +159,17 @@ void CutoutDocument::select_keys(KeyPlaces keys) {
   changed_(CutoutChange::Selection);
 }
 
-void CutoutDocument::try_out(std::vector<animation::Hold> holds) {
+bool CutoutDocument::try_out(std::vector<animation::Hold> holds, const CellStates* from) {
   std::erase_if(holds, [this](const animation::Hold& hold) { return is_locked(project(), hold.cell); });
-  CellStates states = keyed();
-  for (const animation::Hold& hold : holds) states[hold.cell] = hold.wish;
   const CellStates before = shown_;
+  CellStates states = from ? *from : before;
+  for (const animation::Hold& hold : holds) states[hold.cell] = hold.wish;
   tried_ = animation::solved(project(), states, holds, &before).states;
   shown_ = *tried_;
   if (recording_) take_down(holds);
+  if (shown_ == before) return false;
   changed_(CutoutChange::Pose);
+  return true;
 }
 
 /// Cells in hands, and those that they move.

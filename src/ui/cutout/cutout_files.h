@@ -7,6 +7,7 @@
 
 #include "ui/cutout/cutout_document.h"
 #include "ui/cutout/export_job.h"
+#include "ui/cutout/run_cutout.h"
 #include "ui/window/note.h"
 
 namespace icome::ui {
@@ -73,7 +74,5 @@ class CutoutFiles {
 
 /// The filters of a dialog that opens animations.
 QStringList cutout_open_filters();
-/// Is it an animation's file, by its name?
-bool is_cutout_file(const std::filesystem::path& file);
 
 }  // namespace icome::ui

@@ -172,7 +172,14 @@ void CutoutWindow::make_docks() {
   rows->addStretch();
   column->setWidget(panels);
   column->setWidgetResizable(true);
-  dock("dock.values", "Values", column, Qt::RightDockWidgetArea);
+  QDockWidget* const values = dock("dock.values", "Values", column, Qt::RightDockWidgetArea);
+  auto* beside = new ColumnArea(this);
+  table_ = new TablePanel(document_, *settings_, beside);
+  beside->setWidget(table_);
+  beside->setWidgetResizable(true);
+  tabifyDockWidget(values, dock("dock.table", "Table", beside, Qt::RightDockWidgetArea));
+  values->raise();
+  stage_->on_painted([this] { table_->painted(); });
   time_ = new QTabWidget(this);
   time_->setObjectName("time");
   time_->setDocumentMode(true);
@@ -395,7 +402,7 @@ void CutoutWindow::make_play_menu(QMenu& menu) {
   count->setCheckable(true);
   count->setChecked(true);
   connect(count, &QAction::toggled, this, [this](bool on) { transport_.set_count_in(on ? 4 : 0); });
-  runs_ = {play_, again, record_, sound};
+  runs_ = {again, record_, sound};
 }
 
 void CutoutWindow::make_step_menu(QMenu& menu) {
@@ -411,6 +418,7 @@ void CutoutWindow::make_step_menu(QMenu& menu) {
       document_.go_to(*frame);
   });
   step("frame.previous", "Frame &Before", ",", Icon::Previous, [this] { document_.go_to(document_.frame() - 1); });
+  steps_.push_back(play_);
   step("frame.next", "&Next Frame", ".", Icon::Next, [this] { document_.go_to(document_.frame() + 1); });
   step("frame.next_key", "Next &Key", "Ctrl+.", Icon::NextKey, [this] {
     if (const auto frame = next_key(document_.project(), document_.selection(), document_.frame()))
@@ -443,6 +451,9 @@ void CutoutWindow::make_view_menu(QMenu& menu) {
     time_->setCurrentWidget(sheet_);
     sheet_->setFocus();
   });
+  add(menu, "view.watch", "&Watch the Table", QKeySequence("Ctrl+T"), [this] {
+    table_->is_running() ? table_->stop() : table_->start();
+  });
   add(menu, "view.all_frames", "&All Frames", {}, [this] { timeline_->fit(); });
   add(menu, "view.longer", "Timeline Closer", QKeySequence("Ctrl+Shift++"), [this] { timeline_->zoom(kStageZoomStep); });
   add(menu, "view.shorter", "Timeline Farther", QKeySequence("Ctrl+Shift+-"),
@@ -474,12 +485,8 @@ void CutoutWindow::make_bars() {
                    action("cell.axis")});
   bar->addSeparator();
   bar->addAction(action("view.fit"));
-  std::vector<QAction*> before(steps_.begin(), steps_.begin() + 3), after(steps_.begin() + 3, steps_.end());
-  std::vector<QAction*> middle = before;
-  middle.push_back(play_);
-  middle.insert(middle.end(), after.begin(), after.end());
-  bar_->add_actions(middle);
-  bar_->add_actions({runs_.begin() + 1, runs_.end()});
+  bar_->add_actions(steps_);
+  bar_->add_actions(runs_);
   bar_->add_choices();
 }
 
@@ -509,6 +516,7 @@ void CutoutWindow::show_project() {
   sheet_->refresh();
   constraints_->refresh();
   stage_panel_->refresh();
+  table_->refresh();
   std::size_t keys = 0;
   for (const animation::Cell* cell : cells_from_front(project))
     for (const animation::Track& track : cell->tracks) keys += track.size();
@@ -525,6 +533,7 @@ void CutoutWindow::show_project() {
 }
 
 void CutoutWindow::show_frame() {
+  table_->follow_frame();
   stage_->follow_frame();
   timeline_->follow_frame();
   sheet_->follow_frame();

@@ -15,6 +15,7 @@
 #include "ui/cutout/play_bar.h"
 #include "ui/cutout/sound_loader.h"
 #include "ui/cutout/stage_panel.h"
+#include "ui/cutout/table_panel.h"
 #include "ui/cutout/timeline.h"
 #include "ui/cutout/transport.h"
 #include "ui/window/banner.h"
@@ -44,6 +45,7 @@ class CutoutWindow final : public QMainWindow {
   ExposureSheet& sheet() { return *sheet_; }
   Transport& transport() { return transport_; }
   CutoutLook& look() { return look_; }
+  TablePanel& table() { return *table_; }
 
   /// Keys what was moved, and goes on to the next pose; the animation grows where it ends.
   void pose_and_go_on();
@@ -119,6 +121,7 @@ class CutoutWindow final : public QMainWindow {
   CellTree* cells_ = nullptr;
   CellPanel* cell_ = nullptr;
   StagePanel* stage_panel_ = nullptr;
+  TablePanel* table_ = nullptr;
   std::unique_ptr<ConstraintMaker> maker_;
   ConstraintPanel* constraints_ = nullptr;
   QMenu *recent_menu_ = nullptr, *cell_menu_ = nullptr, *key_menu_ = nullptr;

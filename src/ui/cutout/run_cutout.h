@@ -17,6 +17,8 @@ int run_cutout_window(int argc, char** argv, const CutoutWindowOptions& options)
 
 /// Opens a window of its own for an animation, which is gone when it is closed; an empty stage without a file.
 void open_cutout_window(const std::filesystem::path& file);
+/// Is it an animation's file, by its name?
+bool is_cutout_file(const std::filesystem::path& file);
 /// Asks which animation, and opens it likewise.
 void choose_cutout(QWidget& parent);
 

@@ -354,6 +354,7 @@ void StageView::press(QPointF at, Qt::KeyboardModifiers modifiers) {
     document_.select(std::move(selected));
   }
   contact_ = Contact::Press;
+  drag_frame_ = document_.frame();
   drag_ = begin_drag(document_, is_handle ? grip : StageGrip::Move, on_stage(at));
 }
 
@@ -363,8 +364,8 @@ void StageView::drag_to(QPointF at, bool strict) {
     update();
     return;
   }
-  // What a hand of the table does meanwhile does not stay in the mouse's wishes.
-  document_.try_out(dragged(document_, drag_, on_stage(at), strict));
+  const bool is_there = document_.frame() == drag_frame_;
+  document_.try_out(dragged(document_, drag_, on_stage(at), strict), is_there ? &drag_.start : nullptr);
 }
 
 void StageView::mouseMoveEvent(QMouseEvent* event) {

@@ -93,6 +93,7 @@ class StageView final : public QWidget {
   bool is_stale_ = true;  // the picture
   Contact contact_ = Contact::None;
   StageDrag drag_;
+  int drag_frame_ = 0;  // of the animation, in which it began
   QPointF pressed_, last_;
   bool strict_ = false;  // a drag goes along one axis, or in steps of an angle
   StageGrip under_ = StageGrip::None;

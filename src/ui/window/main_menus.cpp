@@ -11,6 +11,7 @@
 #include "ui/actions/object_menu.h"
 #include "ui/look/icons.h"
 #include "ui/panels/object_look.h"
+#include "ui/cutout/run_cutout.h"
 #include "ui/sketch/sketch_window.h"
 #include "ui/window/about_box.h"
 #include "ui/window/command_palette.h"
@@ -93,6 +94,8 @@ void MainWindow::make_menus() {
   file->addSeparator();
   add_action(*file, "file.new_drawing", "New &Drawing", {}, [] { open_sketch_window({}); });
   add_action(*file, "file.open_drawing", "Open D&rawing\u2026", {}, [this] { choose_sketch(*this); });
+  add_action(*file, "file.new_animation", "New &Animation", {}, [] { open_cutout_window({}); });
+  add_action(*file, "file.open_animation", "Open Ani&mation\u2026", {}, [this] { choose_cutout(*this); });
   file->addSeparator();
   add_action(*file, "file.quit", "&Quit", QKeySequence("Ctrl+Q"), [this] { close(); });
   QMenu* edit = menuBar()->addMenu("&Edit");
