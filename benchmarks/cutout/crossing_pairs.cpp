@@ -49,11 +49,11 @@ CrossingPair random_pair(base::Random& random, const cutout::TableView& view) {
 
 }  // namespace
 
-CrossingFigures follow_crossing_pairs(std::size_t frames) {
+CrossingFigures follow_crossing_pairs(std::size_t frames, std::uint64_t seed) {
   const cutout::TableView view = cutout::TableView::whole_frame(320, 180, 320, 180);
   CrossingFigures figures;
   std::size_t wanted = 0, found = 0;
-  base::Random random(77);
+  base::Random random(76 + seed);
   while (figures.frames < frames) {
     const CrossingPair pair = random_pair(random, view);
     const auto tracker = cutout::make_pose_tracker(pair.known, view);

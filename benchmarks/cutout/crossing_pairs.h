@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 
 namespace icome::benchmarks {
 
@@ -13,6 +14,6 @@ struct CrossingFigures {
 
 /// Draws and follows at least so many frames. Each pair has nearly one shape (1 degree, 1 mm); one passes
 /// over the other, or beside it, at several speeds and angles.
-CrossingFigures follow_crossing_pairs(std::size_t frames);
+CrossingFigures follow_crossing_pairs(std::size_t frames, std::uint64_t seed);
 
 }  // namespace icome::benchmarks

@@ -96,7 +96,7 @@ void print_figures(const CutoutExtent& extent) {
   large.table_height = 360;
   large.frames = extent.large_frames;
   print_figure("moving", large, true);
-  const CrossingFigures crossing = follow_crossing_pairs(extent.crossing_frames);
+  const CrossingFigures crossing = follow_crossing_pairs(extent.crossing_frames, extent.seed);
   fmt::print("-- pairs of nearly one shape that cross, following, {} frames\n", crossing.frames);
   fmt::print("swaps {}, ghosts {}, found {:.2f} %, those that lie below the other among them\n",
              crossing.swaps, crossing.ghosts, crossing.found_percent);

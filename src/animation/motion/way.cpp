@@ -92,7 +92,42 @@ double Way::nearest(const Vector2& place, const Vector2& heading, double tie) co
 }
 
 double Way::slid(double s, const Vector2& hand) const { return slide(s, hand, false); }
-double Way::slid_in_a_frame(double s, const Vector2& hand) const { return slide(s, hand, true); }
+
+double Way::slid_in_a_frame(double s, const Vector2& hand) const {
+  if (pieces() == 0) return 0;
+  const double slides_to = slide(s, hand, true);
+  const double left = (at(slides_to) - hand).norm();
+  if (left < kOnePlace) return slides_to;
+  const double near = nearest_within(s, kRound * (at(s) - hand).norm(), hand);
+  return (at(near) - hand).norm() < left / 2 ? near : slides_to;
+}
+
+double Way::nearest_within(double s, double far, const Vector2& place) const {
+  s = within(s);
+  double least = (at(s) - place).norm(), found = s;
+  const std::size_t first = piece_at(s);
+  for (const bool forwards : {true, false}) {
+    std::size_t piece = first;
+    double travelled = 0, begin = s - along_[first];
+    for (std::size_t k = 0; k < pieces() && travelled < far; ++k) {
+      const double length = along_[piece + 1] - along_[piece];
+      const double end =
+          forwards ? std::min(length, begin + far - travelled) : std::max(0.0, begin - (far - travelled));
+      const double foot = std::clamp(directions_[piece].dot(place - corner(piece)), std::min(begin, end),
+                                     std::max(begin, end));
+      const double distance = (corner(piece) + foot * directions_[piece] - place).norm();
+      if (distance < least) {
+        least = distance;
+        found = along_[piece] + foot;
+      }
+      travelled += std::abs(end - begin);
+      if (!closed_ && piece == (forwards ? pieces() - 1 : 0)) break;
+      piece = (piece + (forwards ? 1 : pieces() - 1)) % pieces();
+      begin = forwards ? 0 : along_[piece + 1] - along_[piece];
+    }
+  }
+  return within(found);
+}
 
 double Way::slide(double s, const Vector2& hand, bool limited) const {
   if (pieces() == 0) return 0;

@@ -31,10 +31,11 @@ class Way {
   /// that is the nearest one near by, and never jumps to a piece that lies close but is far along the way.
   double slid(double s, const Vector2& hand) const;
   /// The same within one frame: where little pulls along the way (the hand is at the centre of a bend) the
-  /// bead goes by little, kPull times the pull, and more at corners. With the hand near it this never stops
-  /// it.
+  /// bead goes by little, kPull times the pull, and more at corners. Round a sharp corner it follows a hand
+  /// that is past it: to a place twice as near, kRound times as far along the way as the hand is from it.
   double slid_in_a_frame(double s, const Vector2& hand) const;
   static constexpr double kPull = 4;
+  static constexpr double kRound = 2.5;
 
   /// The angle of the way, rad, counter-clockwise as seen with y down, the mean over kCorner px (an eighth of
   /// a short way's length) about `s`, so that it turns evenly at corners. It counts full turns: from one end
@@ -52,6 +53,7 @@ class Way {
   std::size_t piece_at(double s) const;
   Vector2 corner(std::size_t number) const { return places_[number % places_.size()]; }
   double slide(double s, const Vector2& hand, bool limited) const;
+  double nearest_within(double s, double far, const Vector2& place) const;
   double turned_until(double s) const;  // the integral of the angle from 0 to s
 
   bool closed_;

@@ -21,6 +21,12 @@ int size_step(double scale) {
   return int(std::ceil(2 * std::log2(wanted) - kRounding));
 }
 
+/// The largest scale at which a picture made of lines is drawn.
+double largest_scale(const SvgPicture& svg, const PictureSize& size) {
+  const double by_side = double(kLargestDrawnSvg) / std::max(size.width, size.height);
+  return std::min(by_side, std::sqrt(svg.most_pixels() / (double(size.width) * size.height)));
+}
+
 /// Sides at a size, 1 at least.
 PictureSize sides_at(const PictureSize& size, double scale) {
   const auto side = [&](int whole) { return std::max(1, int(std::lround(whole * scale))); };
@@ -149,8 +155,7 @@ Result<RasterPointer> CellPictures::raster(const std::string& picture, double sc
   Entry& found = entry(picture);
   if (const auto there = ensure_content(picture, found); !there) return tl::unexpected(there.error());
   const PictureSize size = *found.size;
-  const double most =
-      found.svg ? std::max(1.0, double(kLargestDrawnSvg) / std::max(size.width, size.height)) : 1.0;
+  const double most = found.svg ? largest_scale(*found.svg, size) : 1.0;
   const int step = std::min(size_step(scale), int(std::floor(2 * std::log2(most) + kRounding)));
   if (const auto known = found.rasters.find(step); known != found.rasters.end()) return known->second;
   if (const auto fault = found.faults.find(step); fault != found.faults.end()) return fail(fault->second);

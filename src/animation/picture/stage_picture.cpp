@@ -41,16 +41,22 @@ Pixels crossed_frame() {
   return pixels;
 }
 
-/// Known at any time, as it depends on nothing.
-const RasterPointer& stand_in() {
-  static const RasterPointer made =
-      std::make_shared<const Raster>(Raster{crossed_frame(), {kStandInSide, kStandInSide}});
-  return made;
+/// The size of a picture that cannot be shown: that of another one of the cell, else one with the pivot in
+/// its middle.
+PictureSize stand_in_size(const Cell& cell, CellPictures& pictures) {
+  for (const std::string& other : cell.pictures)
+    if (const auto size = pictures.size(other)) return *size;
+  const auto side = [](double pivot) {
+    return pivot >= 8 && pivot <= kLargestPicture / 2 ? int(std::lround(2 * pivot)) : kStandInSide;
+  };
+  return {side(cell.pivot.x()), side(cell.pivot.y())};
 }
 
-RasterPointer raster_or_stand_in(CellPictures& pictures, const std::string& picture, double scale) {
-  const auto raster = pictures.raster(picture, scale);
-  return raster ? *raster : stand_in();
+RasterPointer raster_or_stand_in(CellPictures& pictures, const Cell& cell, const std::string& picture,
+                                 double scale) {
+  if (auto raster = pictures.raster(picture, scale)) return *raster;
+  static const Pixels crossed = crossed_frame();
+  return std::make_shared<const Raster>(Raster{crossed, stand_in_size(cell, pictures)});
 }
 
 /// A cell's picture, ready to be laid.
@@ -72,7 +78,7 @@ std::vector<Laid> laid_cells(const Project& project, const CellStates& states, C
       const CellState& state = found->second;
       const std::string* const picture = visible_picture(cell, state);
       if (!picture) continue;
-      RasterPointer raster = raster_or_stand_in(pictures, *picture, zoom * state.scale);
+      RasterPointer raster = raster_or_stand_in(pictures, cell, *picture, zoom * state.scale);
       const Affine2 picture_from_raster(Eigen::Scaling(raster->scale().cwiseInverse()));
       all.push_back({std::move(raster),
                      view * stage_from_picture(cell, state) * picture_from_raster,
@@ -165,7 +171,8 @@ Pixels draw_frame(const Project& project, const CellStates& states, CellPictures
 std::optional<PictureSize> shown_size(const Cell& cell, const CellState& state, CellPictures& pictures) {
   const std::string* const picture = picture_of(cell, state);
   if (!picture) return std::nullopt;
-  return pictures.size(*picture).value_or(stand_in()->size);
+  const auto size = pictures.size(*picture);
+  return size ? *size : stand_in_size(cell, pictures);
 }
 
 Affine2 stage_from_picture(const Cell& cell, const CellState& state) {
@@ -188,7 +195,7 @@ namespace {
 bool covers(const Cell& cell, const CellState& state, CellPictures& pictures, const Vector2& point) {
   const std::string* const picture = visible_picture(cell, state);
   if (!picture) return false;
-  const RasterPointer raster = raster_or_stand_in(pictures, *picture, state.scale);
+  const RasterPointer raster = raster_or_stand_in(pictures, cell, *picture, state.scale);
   const Vector2 place =
       (stage_from_picture(cell, state).inverse() * point).cwiseProduct(raster->scale()).array().floor();
   const Pixels& pixels = raster->pixels;

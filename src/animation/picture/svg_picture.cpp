@@ -4,6 +4,7 @@
 #include <cairo.h>
 #include <fmt/format.h>
 #include <librsvg/rsvg.h>
+#include <pthread.h>
 
 #include <array>
 #include <chrono>
@@ -11,7 +12,9 @@
 #include <functional>
 #include <future>
 #include <optional>
-#include <thread>
+#include <utility>
+
+#include "animation/picture/svg_guard.h"
 
 namespace icome::animation {
 namespace {
@@ -83,6 +86,27 @@ Result<Pixels> drawn_svg(const std::string& text, const std::string& name, const
   return pixels;
 }
 
+/// Starts a thread that nobody waits for, with a stack for the deepest files that are let through.
+bool start_thread(std::function<void()> work) {
+  constexpr std::size_t kStack = std::size_t{64} << 20U;
+  auto owned = std::make_unique<std::function<void()>>(std::move(work));
+  const auto run = [](void* given) -> void* {
+    const std::unique_ptr<std::function<void()>> taken(static_cast<std::function<void()>*>(given));
+    (*taken)();
+    return nullptr;
+  };
+  pthread_attr_t attributes;
+  if (pthread_attr_init(&attributes) != 0) return false;
+  pthread_t thread{};
+  const bool started = pthread_attr_setstacksize(&attributes, kStack) == 0 &&
+                       pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED) == 0 &&
+                       pthread_create(&thread, &attributes, run, owned.get()) == 0;
+  pthread_attr_destroy(&attributes);
+  if (started) [[maybe_unused]]
+    auto* const given = owned.release();
+  return started;
+}
+
 /// Does the work on a thread of its own, which is left to itself where it takes longer than `seconds`:
 /// librsvg cannot be stopped, and small files can be made that it draws for days. The work must own
 /// everything it uses.
@@ -90,11 +114,8 @@ template <typename Value>
 Result<Value> within(double seconds, const std::string& name, std::function<Result<Value>()> work) {
   std::packaged_task<Result<Value>()> task(std::move(work));
   std::future<Result<Value>> outcome = task.get_future();
-  try {
-    std::thread(std::move(task)).detach();
-  } catch (const std::system_error&) {
+  if (!start_thread([shared = std::make_shared<decltype(task)>(std::move(task))] { (*shared)(); }))
     return fail(fmt::format("{}: the system gives no thread to draw it", name));
-  }
   if (outcome.wait_for(std::chrono::duration<double>(seconds)) != std::future_status::ready)
     return fail(fmt::format("{}: to draw it takes longer than {:g} s; make it simpler", name, seconds));
   try {
@@ -107,6 +128,8 @@ Result<Value> within(double seconds, const std::string& name, std::function<Resu
 }  // namespace
 
 Result<SvgPicture> SvgPicture::read(std::string text, std::string name, double seconds) {
+  const auto cost = svg_cost(text, name);
+  if (!cost) return tl::unexpected(cost.error());
   const auto kept = std::make_shared<const std::string>(std::move(text));
   const auto size = within<SvgSize>(seconds, name, [kept, name]() -> Result<SvgSize> {
     const auto svg = parsed_svg(*kept, name);
@@ -122,10 +145,20 @@ Result<SvgPicture> SvgPicture::read(std::string text, std::string name, double s
   if (!size) return tl::unexpected(size.error());
   if (!(size->width > 0 && size->height > 0 && std::isfinite(size->width) && std::isfinite(size->height)))
     return fail(fmt::format("{}: it is {:g} x {:g} px large", name, size->width, size->height));
-  return SvgPicture(kept, std::move(name), size->width, size->height);
+  SvgPicture picture(kept, std::move(name), size->width, size->height);
+  picture.layers_ = cost->layers;
+  return picture;
+}
+
+double SvgPicture::most_pixels() const {
+  constexpr double kMostMemory = 1e9;  // bytes
+  return kMostMemory / (4.0 * (layers_ + 1));
 }
 
 Result<Pixels> SvgPicture::drawn(int width, int height, double seconds) const {
+  constexpr double kRounded = 1.1;  // sides are whole numbers
+  if (double(width) * height > kRounded * most_pixels())
+    return fail(fmt::format("{}: to draw it takes too much memory; make it simpler", name_));
   return within<Pixels>(seconds, name_,
                         [text = text_, name = name_, size = SvgSize{width_, height_}, width, height] {
                           return drawn_svg(*text, name, size, width, height);

@@ -20,7 +20,10 @@ class SvgPicture {
   double height() const { return height_; }
   const std::string& text() const { return *text_; }
 
-  /// The picture at so many pixels. Fails where that takes longer than `seconds`, or memory runs out.
+  /// The most pixels that it is drawn with, by what its elements keep while they are drawn.
+  double most_pixels() const;
+  /// The picture at so many pixels, most_pixels() at most. Fails where that takes longer than `seconds`, or
+  /// memory runs out.
   base::Result<Pixels> drawn(int width, int height, double seconds) const;
 
  private:
@@ -30,6 +33,7 @@ class SvgPicture {
   std::shared_ptr<const std::string> text_;
   std::string name_;
   double width_, height_;
+  int layers_ = 1;  // pictures that are there at a time while it is drawn
 };
 
 }  // namespace icome::animation

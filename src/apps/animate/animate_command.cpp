@@ -54,7 +54,7 @@ class AnimateRun {
   explicit AnimateRun(const AnimateOptions& options)
       : options_(options),
         pictures_(options.is_new ? std::filesystem::path(".") : options.project.parent_path(),
-                  {.leaves_folder = true}) {}
+                  {.reach = animation::Reach::Anywhere}) {}
 
   int run() {
     const auto project = read();

@@ -151,7 +151,7 @@ TEST_F(CellPicturesTest, TellsWhatIsWrong) {
   EXPECT_EQ(fault("text.png"), "text.png: it is no picture of a kind that is read: PNG, JPEG, SVG or .icome");
   EXPECT_NE(fault("empty.png"), "");
   EXPECT_TRUE(fault("cut.png").starts_with("cut.png: it is no whole PNG file")) << fault("cut.png");
-  EXPECT_TRUE(fault("broken.svg").starts_with("broken.svg: it is no SVG file")) << fault("broken.svg");
+  EXPECT_TRUE(fault("broken.svg").starts_with("broken.svg:1: it is no sound XML")) << fault("broken.svg");
   EXPECT_EQ(fault("huge.svg"), "huge.svg: it is 1e+07 x 3 px large; 8192 x 8192 are the most");
   EXPECT_TRUE(fault("other.xml").starts_with("other.xml: ")) << fault("other.xml");
   EXPECT_NE(fault("folder.png"), "");

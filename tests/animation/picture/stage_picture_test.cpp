@@ -152,9 +152,19 @@ TEST_F(StagePicture, MissingPicturesAreCrossedFrames) {
   EXPECT_NE(drawn.row(30)[50], kPaper);
   const auto outline = outline_of(project_.layers[0].cells[0], rest(0), pictures_);
   ASSERT_TRUE(outline);
-  EXPECT_EQ((*outline)[2], Vector2(114, 94));
+  EXPECT_EQ((*outline)[2], Vector2(114, 94));  // the pivot is in its middle
   EXPECT_EQ(cell_at(project_, states_by_keys(project_, 0), pictures_, {10, 10}),
             project_.layers[0].cells[0].id);
+}
+
+TEST_F(StagePicture, MissingPicturesAreAsLargeAsOthersOfTheirCell) {
+  add_cell(project_, "gone.png", {0, 0}, {50, 30}).pictures.push_back("red.png");
+  const auto outline = outline_of(project_.layers[0].cells[0], rest(0), pictures_);
+  ASSERT_TRUE(outline);
+  EXPECT_EQ((*outline)[2], Vector2(70, 50));
+  const Pixels drawn = frame();
+  EXPECT_NE(drawn.row(31)[51], kPaper);
+  EXPECT_EQ(drawn.row(51)[51], kPaper);
 }
 
 TEST_F(StagePicture, DrawsNothingOfNonsense) {

@@ -18,7 +18,11 @@ constexpr double kTrackedAgainst = 0.25;
 constexpr double kTrackedBeyond = 0.4;  // blue beyond that no other triangle explains
 constexpr double kMovedSupport = 0.22;  // share by which it is believed where it was not foreseen
 constexpr double kForeseenPlace = 3;    // pixels
+constexpr double kMuchNearer = 0.5;     // of the way from where it was foreseen
 constexpr double kForeseenTurn = 0.05;  // rad
+constexpr double kSharedOutline = 0.6;  // of what supports a triangle, that another one's edges explain too
+constexpr double kClearlyBetter = 0.75;  // of the better score, below which the other one is let go
+constexpr double kOnOutline = 1.5;       // pixels from an edge
 constexpr double kSureSupport = 0.3;    // share by which a new triangle of three edges is believed at once
 constexpr double kSureRms = 0.35;       // pixels
 constexpr double kLeastWindow = 6;      // pixels about a prediction
@@ -40,6 +44,7 @@ struct TriangleTrack {
   double spin = 0;                     // rad/s
   double seen = 0;                     // s, when the edges last showed it
   double confidence = 0;
+  double score = 0;  // of the last look: what speaks for it, less what speaks against it
 };
 
 class PoseTracker : public Tracker {
@@ -68,11 +73,14 @@ class PoseTracker : public Tracker {
  private:
   void follow(double time);
   void follow_one(std::size_t triangle, double time);
-  void part_doubles();
+  void part_doubles(double time);
+  void part(std::size_t one, std::size_t other);
+  double share_on(std::size_t one, std::size_t other) const;
   void search_missing(const FrameView& frame, double time);
   void adapt_colours(const FrameView& frame, double time);
   Placed foreseen(const TriangleTrack& track, double time) const;
   void update(TriangleTrack& track, const OutlineFitted& fitted, double time);
+  bool is_where_another_is(std::size_t triangle, const Placed& placed) const;
   std::vector<Neighbour> neighbours_of(std::size_t triangle) const;
 
   Rectifier rectifier_;
@@ -82,7 +90,9 @@ class PoseTracker : public Tracker {
   OutlineFit fit_;
   Claims claims_;
   std::vector<TriangleTrack> tracks_;
-  std::vector<Placed> foreseen_;  // of all tracks, in the frame at hand
+  std::vector<Placed> foreseen_;                 // of all tracks, in the frame at hand
+  std::vector<TriangleTrack> before_;            // all tracks, as they were before it
+  std::vector<std::vector<Vector2>> supported_;  // pixels of each followed triangle in it
   std::vector<PoseFound> found_;
   SearchWish wish_;
   struct LastSeen {
@@ -115,6 +125,21 @@ std::vector<Neighbour> PoseTracker::neighbours_of(std::size_t triangle) const {
   return others;
 }
 
+/// Was another triangle foreseen there rather than this one? Nearly alike ones would change places.
+bool PoseTracker::is_where_another_is(std::size_t triangle, const Placed& placed) const {
+  const double pixel = rectifier_.mm_per_pixel(placed.centroid);
+  const auto off = [&](std::size_t i) {
+    return ((foreseen_[i].centroid - placed.centroid).norm() +
+            shapes_[i].reach * std::abs(within_half_turn(foreseen_[i].turn - placed.turn))) /
+           pixel;
+  };
+  const double own = off(triangle);
+  if (own < kForeseenPlace) return false;
+  for (std::size_t other = 0; other < tracks_.size(); ++other)
+    if (other != triangle && tracks_[other].followed && off(other) < kMuchNearer * own) return true;
+  return false;
+}
+
 void PoseTracker::update(TriangleTrack& track, const OutlineFitted& fitted, double time) {
   const double step = time - track.seen;
   Placed now = fitted.placed;
@@ -141,6 +166,7 @@ void PoseTracker::update(TriangleTrack& track, const OutlineFitted& fitted, doub
   track.seen = time;
   track.followed = true;
   track.confidence = fitted.evidence.support();
+  track.score = track.confidence * (1 - fitted.evidence.rms) - fitted.evidence.contradiction();
 }
 
 void PoseTracker::follow_one(std::size_t triangle, double time) {
@@ -175,32 +201,56 @@ void PoseTracker::follow_one(std::size_t triangle, double time) {
     else if (holds(fitted))
       fitted = fit_.fit(shapes_[triangle], fitted.placed, 0, {6 * pixel, 0.1}, neighbours);
   }
-  if (!holds(fitted)) return;
+  if (!holds(fitted) || is_where_another_is(triangle, fitted.placed)) return;
   update(track, fitted, time);
   track.sure = true;
   foreseen_[triangle] = fitted.placed;
-  for (const Vector2& place : fit_.supported_pixels()) claims_.take(place);
+  supported_[triangle].assign(fit_.supported_pixels().begin(), fit_.supported_pixels().end());
+  for (const Vector2& place : supported_[triangle]) claims_.take(place);
 }
 
 void PoseTracker::follow(double time) {
   foreseen_.resize(tracks_.size());
+  supported_.resize(tracks_.size());
+  before_ = tracks_;
   for (std::size_t i = 0; i < tracks_.size(); ++i)
     if (tracks_[i].followed) foreseen_[i] = foreseen(tracks_[i], time);
   for (std::size_t i = 0; i < tracks_.size(); ++i)
     if (tracks_[i].followed) follow_one(i, time);
 }
 
-void PoseTracker::part_doubles() {
-  // Two triangles cannot lie at one place with one edge: the one that sees less of itself is let go.
+/// The share of what supports a triangle that lies on the outline of another one.
+double PoseTracker::share_on(std::size_t one, std::size_t other) const {
+  std::size_t shared = 0;
+  for (const Vector2& pixel : supported_[one]) {
+    const Vector2 place = rectifier_.to_table(pixel.x(), pixel.y());
+    const double near = kOnOutline * rectifier_.mm_per_pixel(place);
+    shared += std::abs(depth_within(shapes_[other], tracks_[other].placed, place)) < near;
+  }
+  return supported_[one].empty() ? 0.0 : double(shared) / double(supported_[one].size());
+}
+
+/// Lets the one of two triangles go that the edges of both speak for less. Where neither is clearly better both
+/// are where they were foreseen, until the next frames tell.
+void PoseTracker::part(std::size_t one, std::size_t other) {
+  const bool less = tracks_[one].score < tracks_[other].score;
+  const std::size_t better = less ? other : one, worse = less ? one : other;
+  const bool is_clear = tracks_[worse].score < kClearlyBetter * tracks_[better].score;
+  tracks_[worse] = before_[worse];
+  if (!is_clear) tracks_[better] = before_[better];
+}
+
+void PoseTracker::part_doubles(double time) {
   for (std::size_t i = 0; i < tracks_.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      TriangleTrack &a = tracks_[i], &b = tracks_[j];
-      if (!a.followed || !b.followed || a.seen != b.seen) continue;
-      const double near = 0.1 * std::min(shapes_[i].reach, shapes_[j].reach);
-      if ((a.placed.centroid - b.placed.centroid).norm() > near ||
-          std::abs(within_half_turn(a.placed.turn - b.placed.turn)) > 0.1)
-        continue;
-      (a.confidence < b.confidence ? a : b) = TriangleTrack{};
+      const TriangleTrack &a = tracks_[i], &b = tracks_[j];
+      if (!a.followed || !b.followed || a.seen != time || b.seen != time) continue;
+      if ((a.placed.centroid - b.placed.centroid).norm() > shapes_[i].reach + shapes_[j].reach) continue;
+      const bool i_has_little = share_on(i, j) >= kSharedOutline, j_has_little = share_on(j, i) >= kSharedOutline;
+      if (i_has_little && j_has_little)
+        part(i, j);
+      else if (i_has_little || j_has_little)
+        tracks_[i_has_little ? i : j] = before_[i_has_little ? i : j];
     }
 }
 
@@ -280,7 +330,7 @@ base::Result<std::vector<Sighting>> PoseTracker::see(const FrameView& frame, dou
   fit_.look_at(frame);
   claims_.clear();
   follow(time);
-  part_doubles();
+  part_doubles(time);
   search_missing(frame, time);
   if (follows_) adapt_colours(frame, time);
   std::vector<Sighting> seen;

@@ -1,0 +1,300 @@
+"""Runs icome animate as a person would: makes projects by script, renders and records them."""
+import json
+import math
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import tomllib
+import unittest
+
+import png_pixels
+
+PROGRAM = os.environ["ICOME_PROGRAM"]
+EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "data" / "cutout"
+
+
+def run(*arguments, code=0, cwd=None, stdin=None):
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300, cwd=cwd,
+                          input=stdin)
+    if code is not None and done.returncode != code:
+        raise AssertionError(f"{arguments}: exit code {done.returncode}, not {code}\n{done.stdout}\n{done.stderr}")
+    return done
+
+
+def animate(*arguments, **others):
+    return run("animate", *arguments, **others)
+
+
+def animate_json(*arguments, **others):
+    return json.loads(animate(*arguments, "--json", **others).stdout)
+
+
+def cell_in(project, name):
+    """The table of a cell in the text of a project, as another reader of TOML has it."""
+    with open(project, "rb") as file:
+        content = tomllib.load(file)
+    return next(cell for layer in content["layer"] for cell in layer["cell"] if cell["name"] == name)
+
+
+def value_at(keys, frame):
+    """The value of keys with straight ways, worked out here once more."""
+    before = [key for key in keys if key[0] <= frame]
+    after = [key for key in keys if key[0] > frame]
+    if not before:
+        return keys[0][1]
+    if not after or (len(before[-1]) > 2 and before[-1][2] == "hold"):
+        return before[-1][1]
+    (x0, y0), (x1, y1) = before[-1][:2], after[0][:2]
+    return y0 + (y1 - y0) * (frame - x0) / (x1 - x0)
+
+
+SQUARE = ('<svg xmlns="http://www.w3.org/2000/svg" width="40" height="20">'
+          '<rect width="40" height="20" fill="#ff0000"/></svg>')
+
+
+class Animate(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+        (self.folder / "square.svg").write_text(SQUARE)
+
+    def script(self, *commands):
+        (self.folder / "edits.jsonl").write_text("".join(json.dumps(command) + "\n" for command in commands))
+        return self.folder / "edits.jsonl"
+
+    def small_project(self):
+        script = self.script(
+            {"op": "stage", "width": 200, "height": 100, "rate": 12, "length": 12, "background": "#0000ff"},
+            {"op": "add-cell", "pictures": "square.svg", "place": [50, 50]},
+            {"op": "key", "cell": "square", "frame": 0, "x": 50}, {"op": "key", "cell": "square", "frame": 10, "x": 150})
+        animate("new", "--apply", script, "--save", "small.cutout", cwd=self.folder)
+        return self.folder / "small.cutout"
+
+    def test_makes_a_project_by_script_and_tells_what_is_in_it(self):
+        project = self.small_project()
+        told = animate_json(project)
+        self.assertEqual([told["width"], told["height"], told["rate"], told["frames"]], [200, 100, 12, 12])
+        self.assertEqual(told["layers"][0]["cells"][0]["name"], "square")
+        self.assertEqual(told["layers"][0]["cells"][0]["keys"], 2)
+        self.assertEqual(told["missing"], [])
+        self.assertIn("square", animate(project).stdout)
+
+    def test_draws_what_the_keys_say(self):
+        project = self.small_project()
+        animate(project, "--out", self.folder / "shot%02d.png")
+        self.assertEqual(len(list(self.folder.glob("shot*.png"))), 12)
+        for frame in (0, 3, 10, 11):
+            _, _, rows = png_pixels.pixels(self.folder / f"shot{frame:02}.png")
+            middle = value_at([(0, 50), (10, 150)], frame)
+            for x in range(2, 200, 5):
+                expected = (255, 0, 0) if abs(x + 0.5 - middle) < 19 else (0, 0, 255)
+                if 19 <= abs(x + 0.5 - middle) <= 21:
+                    continue
+                self.assertEqual(rows[50][x][:3], expected, (frame, x))
+
+    def test_gives_the_same_bytes_each_time(self):
+        project = self.small_project()
+        names = ["a.png", "a.svg"] + (["a.mp4", "a.gif", "a.webm", "a.apng"] if shutil.which("ffmpeg") else [])
+        for name in names:
+            bytes_ = []
+            for turn in "12":
+                out = self.folder / turn / name
+                out.parent.mkdir(exist_ok=True)
+                frames = ["--frames", "4-4"] if name.endswith((".png", ".svg")) else []
+                animate(project, "--out", out, *frames)
+                bytes_.append(out.read_bytes())
+            self.assertEqual(bytes_[0], bytes_[1], name)
+
+    @unittest.skipUnless(shutil.which("ffprobe"), "ffmpeg is not installed: no film to look at")
+    def test_writes_films_of_all_frames(self):
+        project = self.small_project()
+        for ending in ("mp4", "webm", "gif", "apng"):
+            out = self.folder / f"film.{ending}"
+            written = animate_json(project, "--out", out)["written"]
+            self.assertEqual([written["first"], written["last"]], [0, 11])
+            told = json.loads(subprocess.run(
+                ["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-of", "json", out],
+                capture_output=True, text=True, check=True).stdout)["streams"][0]
+            self.assertEqual((told["width"], told["height"], int(told["nb_read_frames"])), (200, 100, 12), ending)
+
+    def test_says_what_is_missing_for_a_film_without_ffmpeg(self):
+        project = self.small_project()
+        done = subprocess.run([PROGRAM, "animate", str(project), "--out", str(self.folder / "a.mp4")],
+                              capture_output=True, text=True, env={**os.environ, "PATH": "/nowhere"})
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("apt install ffmpeg", done.stderr)
+        self.assertFalse((self.folder / "a.mp4").exists())
+
+    def test_a_wrong_line_is_named_and_nothing_written(self):
+        script = self.script({"op": "add-cell", "pictures": "square.svg"}, {"op": "key", "cell": "circle", "frame": 0})
+        done = animate("new", "--apply", script, "--save", "new.cutout", cwd=self.folder, code=1)
+        self.assertIn("edits.jsonl:2: key: there is no cell 'circle'", done.stderr)
+        self.assertFalse((self.folder / "new.cutout").exists())
+
+    def test_tells_missing_and_damaged_pictures(self):
+        project = self.small_project()
+        (self.folder / "square.svg").write_bytes(b"\x89PNG\r\n\x1a\nnothing")
+        told = animate_json(project)
+        self.assertEqual([one["picture"] for one in told["missing"]], ["square.svg"])
+        (self.folder / "square.svg").unlink()
+        self.assertIn("square.svg", animate(project).stderr)
+        animate(project, "--out", self.folder / "a.png", "--frames", "0")
+
+    def test_wrong_files_and_frames_get_a_sentence(self):
+        project = self.small_project()
+        for arguments, words in [
+            (["nowhere.cutout"], "nowhere.cutout"),
+            ([project, "--out", self.folder / "a.bmp"], "a.bmp"),
+            ([project, "--out", self.folder / "a.png", "--frames", "5-3"], "--frames is 5-3"),
+            ([project, "--out", self.folder / "a.png", "--frames", "0-12"], "the last frame is 11"),
+            ([project, "--out", self.folder / "no" / "where" / "a.mp4"], "where"),
+            ([self.folder / "square.svg"], "square.svg:1"),
+        ]:
+            done = animate(*arguments, code=1)
+            self.assertIn(words, done.stderr)
+            self.assertEqual(done.stdout, "")
+        text = project.read_text().replace("width = 200", "width = nan")
+        project.write_text(text)
+        line = text[:text.index("width = nan")].count("\n") + 1
+        self.assertIn(f"small.cutout:{line}:", animate(project, code=1).stderr)
+
+    def test_takes_up_a_journal_that_a_crash_left(self):
+        project = self.small_project()
+        journal = self.folder / ".small.cutout.journal"
+        sum_ = 0xcbf29ce484222325
+        for byte in project.read_bytes():
+            sum_ = (sum_ ^ byte) * 0x100000001b3 % 2**64
+        journal.write_text(f"# Edits of a cut-out animation since it was saved; from {sum_:016x}\n"
+                           'edit = [{ do = "smooth_hands", smooth = true }]\nedit = [{ do = "smoo')
+        told = animate_json(project)
+        self.assertEqual(told["recovered"], 1)
+        self.assertTrue(any("line 3 is damaged" in note for note in told["notes"]))
+
+    def test_both_examples_are_whole(self):
+        for name in ("boat", "walk"):
+            told = animate_json(EXAMPLES / name / f"{name}.cutout")
+            self.assertEqual(told["missing"], [])
+            made = self.folder / name
+            shutil.copytree(EXAMPLES / name, made)
+            animate("new", "--apply", f"{name}.jsonl", "--save", f"{name}.cutout", cwd=made)
+            self.assertEqual((made / f"{name}.cutout").read_text(), (EXAMPLES / name / f"{name}.cutout").read_text())
+            animate(EXAMPLES / name / f"{name}.cutout", "--out", self.folder / "a.png", "--frames", "5", "--scale", 0.5)
+            width, height, _ = png_pixels.pixels(self.folder / "a.png")
+            self.assertEqual((width, height), (640, 360))
+
+    def test_lists_its_tools(self):
+        tools = {tool["name"] for tool in json.loads(animate("--help-tools", "--json").stdout)["tools"]}
+        self.assertTrue({"key", "join", "chain", "map", "import", "undo"} <= tools)
+        self.assertIn("degrees", animate("--help-tools", "key").stdout)
+        self.assertIn("did you mean 'key'", animate("--help-tools", "kee", code=1).stderr)
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed: nothing to interrupt")
+    def test_ctrl_c_leaves_nothing_half_written(self):
+        script = self.script({"op": "stage", "width": 1920, "height": 1080, "length": 20000},
+                             {"op": "add-cell", "pictures": "square.svg"})
+        animate("new", "--apply", script, "--save", "long.cutout", cwd=self.folder)
+        for name in ("long.mp4", "long/"):
+            before = sorted(self.folder.iterdir())
+            program = subprocess.Popen([PROGRAM, "animate", "long.cutout", "--out", name], cwd=self.folder,
+                                       stderr=subprocess.PIPE, text=True)
+            time.sleep(1.5)
+            program.send_signal(signal.SIGINT)
+            _, error = program.communicate(timeout=20)
+            self.assertEqual(program.returncode, 130, error)
+            self.assertEqual(sorted(self.folder.iterdir()), before)
+
+
+class Record(unittest.TestCase):
+    """Triangles of made frames move cells, as their truth says."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        run("track", "--synth", cls.folder / "made", "--frames", 50, "--triangles", 3, "--seed", 5)
+        cls.truth = json.loads((cls.folder / "made" / "truth.json").read_text())
+        (cls.folder / "square.svg").write_text(SQUARE)
+
+    def record(self, *commands, more=()):
+        script = self.folder / "edits.jsonl"
+        commands = [{"op": "stage", "width": 1280, "height": 960, "rate": 30, "length": 50},
+                    {"op": "add-cell", "name": "a", "pictures": "square.svg", "place": [600, 400], "angle": 10},
+                    {"op": "add-cell", "name": "b", "pictures": "square.svg", "place": [100, 100]}, *commands]
+        script.write_text("".join(json.dumps(command) + "\n" for command in commands))
+        told = json.loads(animate("new", "--apply", script, "--record", "made", "--known", "made/known.toml",
+                                  "--save", "out.cutout", "--thin", 0, "--json", *more, cwd=self.folder).stdout)
+        return told, self.folder / "out.cutout"
+
+    def true_poses(self, id_):
+        """Frame, x, y (mm) and angle (rad) of a triangle, in the frames where it is."""
+        poses = []
+        for number, frame in enumerate(self.truth["frames"]):
+            for triangle in frame["triangles"]:
+                if triangle["id"] == id_:
+                    poses.append((number, triangle["x_mm"], triangle["y_mm"], triangle["angle_rad"]))
+        return poses
+
+    def test_absolute_cells_are_where_triangles_are(self):
+        told, project = self.record({"op": "map", "triangle": "t1", "cell": "a"})
+        self.assertEqual(told["recorded"]["frames"], 50)
+        cell = cell_in(project, "a")
+        for frame, x, y, angle in self.true_poses("t1")[2:]:
+            self.assertLess(abs(value_at(cell["keys"]["x"], frame) - 2 * x), 1.0, frame)
+            self.assertLess(abs(value_at(cell["keys"]["y"], frame) - 2 * y), 1.0, frame)
+            turn = value_at(cell["keys"]["angle"], frame) - (math.degrees(angle) - 90)
+            self.assertLess(abs((turn + 180) % 360 - 180), 1.0, frame)
+        steps = [b[1] - a[1] for a, b in zip(cell["keys"]["angle"], cell["keys"]["angle"][1:])]
+        self.assertLess(max(map(abs, steps)), 90, "angles are not wrapped")
+        self.assertNotIn("keys", cell_in(project, "b"))
+
+    def test_relative_cells_go_as_far_as_triangles(self):
+        _, project = self.record({"op": "map", "triangle": "t2", "cell": "a", "mode": "relative"})
+        cell = cell_in(project, "a")
+        poses = self.true_poses("t2")
+        first = cell["keys"]["x"][0][0]
+        start = next(pose for pose in poses if pose[0] == first)
+        for frame, x, y, _ in poses[first:]:
+            self.assertLess(abs(value_at(cell["keys"]["x"], frame) - 600 - 2 * (x - start[1])), 1.5, frame)
+            self.assertLess(abs(value_at(cell["keys"]["y"], frame) - 400 - 2 * (y - start[2])), 1.5, frame)
+
+    def test_an_axis_keeps_the_cell_on_it(self):
+        _, project = self.record({"op": "map", "triangle": "t1", "cell": "a"},
+                                 {"op": "axis", "cell": "a", "direction": 0})
+        cell = cell_in(project, "a")
+        ys = {round(key[1], 6) for key in cell["keys"].get("y", [[0, cell["y"]]])}
+        self.assertEqual(ys, {400})
+        for frame, x, _, _ in self.true_poses("t1")[2:]:
+            self.assertLess(abs(value_at(cell["keys"]["x"], frame) - 2 * x), 1.0, frame)
+
+    def test_overdub_goes_over_one_layer_only(self):
+        _, project = self.record({"op": "map", "triangle": "t1", "cell": "a"}, {"op": "add-layer", "name": "front"},
+                                 {"op": "move-cell", "cell": "b", "layer": "front"},
+                                 {"op": "map", "triangle": "t2", "cell": "b"}, more=["--layer", "front"])
+        self.assertNotIn("keys", cell_in(project, "a"))
+        self.assertIn("keys", cell_in(project, "b"))
+
+    def test_a_list_that_names_cells_needs_no_mapping(self):
+        known = self.folder / "named.toml"
+        text = (self.folder / "made" / "known.toml").read_text()
+        known.write_text(re.sub(r'(id = "t1"\n)', r'\1cell = "a"\n', text))
+        _, project = self.record(more=["--known", known])
+        self.assertIn("keys", cell_in(project, "a"))
+
+    def test_says_what_is_wrong(self):
+        script = self.folder / "edits.jsonl"
+        script.write_text('{"op": "add-cell", "name": "a", "pictures": "square.svg"}\n')
+        for arguments, words in [(["--record", "made"], "--known"),
+                                 (["--record", "nowhere", "--known", "made/known.toml"], "nowhere"),
+                                 (["--record", "made", "--known", "made/known.toml"], "no triangle moves a cell"),
+                                 (["--record", "made", "--known", "made/known.toml", "--layer", "x"], "no layer 'x'")]:
+            done = animate("new", "--apply", script, *arguments, cwd=self.folder, code=1)
+            self.assertIn(words, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
