@@ -35,7 +35,8 @@ QStringList open_filters() {
     filters << filter_of(it);
   }
   filters.prepend(QString("All designs (%1)").arg(endings.join(' ')));
-  return filters << "Cut-out animation (*.cutout)" << "All files (*)";
+  return filters << "Cut-out animation (*.cutout)"
+                 << "All files (*)";
 }
 
 QStringList save_filters() {

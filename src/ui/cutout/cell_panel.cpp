@@ -53,7 +53,8 @@ CellPanel::CellPanel(CutoutDocument& document, QWidget* parent)
   picture_ = new QuietComboBox(section_->body());
   picture_->setObjectName("cell.picture");
   picture_->setAccessibleName("Picture that is shown");
-  connect(picture_, &QComboBox::activated, this, [this](int row) { (void)set_value(Channel::Picture, row - 1); });
+  connect(picture_, &QComboBox::activated, this,
+          [this](int row) { (void)set_value(Channel::Picture, row - 1); });
   picture_row_ = section_->add_row("Picture", "From the present frame on", {picture_});
   pivot_x_ = add_field(Quantity::Pixels, "cell.pivot_x", "x of the pivot in the picture");
   pivot_y_ = add_field(Quantity::Pixels, "cell.pivot_y", "y of the pivot in the picture");
@@ -123,9 +124,10 @@ base::Result<void> CellPanel::set_pivot(bool across, double value) {
 void CellPanel::show_label(const PanelSection::Row& row, const QString& text,
                            std::initializer_list<Channel> channels) {
   const Cell* const cell = document_.leading();
-  const bool is_keyed = cell != nullptr && std::ranges::any_of(channels, [&](Channel channel) {
-    return animation::key_at(cell->tracks[std::size_t(channel)], document_.frame()) != nullptr;
-  });
+  const bool is_keyed =
+      cell != nullptr && std::ranges::any_of(channels, [&](Channel channel) {
+        return animation::key_at(cell->tracks[std::size_t(channel)], document_.frame()) != nullptr;
+      });
   row.label->setText(is_keyed ? text + QString::fromUtf8(" \u25c6") : text);
 }
 

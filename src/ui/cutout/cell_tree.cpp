@@ -24,7 +24,9 @@ constexpr int kLayerRole = Qt::UserRole, kCellRole = Qt::UserRole + 1;
 LayerId layer_in(const QTreeWidgetItem& item) {
   return LayerId{item.data(CellNameColumn, kLayerRole).toULongLong()};
 }
-CellId cell_in(const QTreeWidgetItem& item) { return CellId{item.data(CellNameColumn, kCellRole).toULongLong()}; }
+CellId cell_in(const QTreeWidgetItem& item) {
+  return CellId{item.data(CellNameColumn, kCellRole).toULongLong()};
+}
 
 std::size_t place_in(const Layer& layer, CellId cell) {
   const auto found = std::ranges::find(layer.cells, cell, &animation::Cell::id);
@@ -54,7 +56,9 @@ class CellTree::Tree final : public QTreeWidget {
     event->setDropAction(Qt::IgnoreAction);
     event->accept();
     if (on == nullptr) return;
-    const int where = dropIndicatorPosition() == AboveItem ? 1 : dropIndicatorPosition() == BelowItem ? -1 : 0;
+    const int where = dropIndicatorPosition() == AboveItem   ? 1
+                      : dropIndicatorPosition() == BelowItem ? -1
+                                                             : 0;
     std::vector<CellId> cells;
     LayerId layer;
     for (const QTreeWidgetItem* item : selectedItems()) {
@@ -110,7 +114,8 @@ CellTree::CellTree(CutoutDocument& document, QWidget* parent)
   refresh();
 }
 
-QToolButton* CellTree::add_button(const char* name, const QString& text, Icon picture, std::function<void()> act) {
+QToolButton* CellTree::add_button(const char* name, const QString& text, Icon picture,
+                                  std::function<void()> act) {
   auto* button = new QToolButton(this);
   button->setObjectName(QString("cells.%1").arg(name));
   button->setIcon(icon(picture));
@@ -188,7 +193,8 @@ void CellTree::drop(const std::vector<CellId>& cells, LayerId to, CellId target,
     std::vector<CellId> now;
     for (const animation::Cell& cell : layer->cells) now.push_back(cell.id);
     std::vector<CellId> wanted = others;
-    wanted.insert(wanted.begin() + std::ptrdiff_t(std::min(place, wanted.size())), cells.begin(), cells.end());
+    wanted.insert(wanted.begin() + std::ptrdiff_t(std::min(place, wanted.size())), cells.begin(),
+                  cells.end());
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       if (i < now.size() && now[i] == wanted[i]) continue;
       std::erase(now, wanted[i]);
@@ -206,7 +212,8 @@ void CellTree::drop_layer(LayerId layer, LayerId target, int where) {
     std::vector<LayerId> others;
     for (const Layer& it : project.layers)
       if (it.id != layer) others.push_back(it.id);
-    const auto place = std::size_t(std::ranges::find(others, target) - others.begin()) + (where == -1 ? 0 : 1);
+    const auto place =
+        std::size_t(std::ranges::find(others, target) - others.begin()) + (where == -1 ? 0 : 1);
     document_.perform(animation::ProjectEdit{animation::MoveLayer{layer, std::min(place, others.size())}});
   });
 }
@@ -258,7 +265,8 @@ void CellTree::show_layer(QTreeWidgetItem& item, const Layer& layer) {
   item.setCheckState(CellSeenColumn, layer.visible ? Qt::Checked : Qt::Unchecked);
   item.setCheckState(CellLockedColumn, layer.locked ? Qt::Checked : Qt::Unchecked);
   item.setData(CellSeenColumn, Qt::AccessibleTextRole, name + (layer.visible ? " is seen" : " is hidden"));
-  item.setData(CellLockedColumn, Qt::AccessibleTextRole, name + (layer.locked ? " is locked" : " is not locked"));
+  item.setData(CellLockedColumn, Qt::AccessibleTextRole,
+               name + (layer.locked ? " is locked" : " is not locked"));
 }
 
 void CellTree::show_cell(QTreeWidgetItem& item, const animation::Cell& cell) {
@@ -272,8 +280,9 @@ void CellTree::show_cell(QTreeWidgetItem& item, const animation::Cell& cell) {
   item.setText(CellNameColumn, is_camera ? QString("Camera") : one_line(cell.name));
   item.setIcon(CellNameColumn, icon(is_camera ? Icon::Camera : Icon::Cell));
   item.setToolTip(CellNameColumn, is_camera ? QString("Keys of the camera's pan and zoom")
-                                            : QString("%L1 %2").arg(cell.pictures.size()).arg(
-                                                  cell.pictures.size() == 1 ? "picture" : "pictures"));
+                                            : QString("%L1 %2")
+                                                  .arg(cell.pictures.size())
+                                                  .arg(cell.pictures.size() == 1 ? "picture" : "pictures"));
 }
 
 void CellTree::refresh() {
@@ -323,8 +332,8 @@ void CellTree::follow_selection() {
 }
 
 void CellTree::show_buttons() {
-  const bool has_cell = std::ranges::any_of(document_.selection(),
-                                            [](CellId cell) { return cell != animation::kCamera; });
+  const bool has_cell =
+      std::ranges::any_of(document_.selection(), [](CellId cell) { return cell != animation::kCamera; });
   const bool has_layer = document_.selection().empty() && document_.project().find(layer_) != nullptr;
   delete_->setEnabled(has_cell || has_layer);
   up_->setEnabled(has_cell || has_layer);

@@ -80,19 +80,22 @@ std::optional<std::pair<std::string, std::string>> ConstraintMaker::two_names(co
     document_.remark(need);
     return std::nullopt;
   }
-  return std::pair(document_.project().find(selection[0])->name, document_.project().find(selection[1])->name);
+  return std::pair(document_.project().find(selection[0])->name,
+                   document_.project().find(selection[1])->name);
 }
 
 void ConstraintMaker::join() {
-  const auto names = two_names("Select two cells: first the one that hangs, then (Shift) the one that carries it.");
+  const auto names =
+      two_names("Select two cells: first the one that hangs, then (Shift) the one that carries it.");
   if (!names) return;
-  stage_.ask_places(QString("Click where %1 hangs on %2").arg(one_line(names->first), one_line(names->second)), 1, 1,
-                    [=, this](const std::vector<Vector2>& places) {
-                      document_.perform(cutout_command("join", {{"parent", names->second},
-                                                                {"child", names->first},
-                                                                {"at", command_point(places[0])},
-                                                                {"frame", document_.frame()}}));
-                    });
+  stage_.ask_places(
+      QString("Click where %1 hangs on %2").arg(one_line(names->first), one_line(names->second)), 1, 1,
+      [=, this](const std::vector<Vector2>& places) {
+        document_.perform(cutout_command("join", {{"parent", names->second},
+                                                  {"child", names->first},
+                                                  {"at", command_point(places[0])},
+                                                  {"frame", document_.frame()}}));
+      });
 }
 
 void ConstraintMaker::chain() {
@@ -133,15 +136,14 @@ void ConstraintMaker::keep_distance() {
 void ConstraintMaker::guide_by_path(bool turns) {
   const Cell* const cell = leading_paper("Select the cell that is to follow a path.");
   if (cell == nullptr) return;
-  stage_.ask_places("Click along the path; Enter or a double click ends it", 2, kMostPathPlaces,
-                    [=, this, name = cell->name](const std::vector<Vector2>& places) {
-                      interaction::Value::List way;
-                      for (const Vector2& place : places) way.push_back(command_point(place));
-                      document_.perform(cutout_command("path", {{"cell", name},
-                                                                {"way", way},
-                                                                {"turns", turns},
-                                                                {"frame", document_.frame()}}));
-                    });
+  stage_.ask_places(
+      "Click along the path; Enter or a double click ends it", 2, kMostPathPlaces,
+      [=, this, name = cell->name](const std::vector<Vector2>& places) {
+        interaction::Value::List way;
+        for (const Vector2& place : places) way.push_back(command_point(place));
+        document_.perform(cutout_command(
+            "path", {{"cell", name}, {"way", way}, {"turns", turns}, {"frame", document_.frame()}}));
+      });
 }
 
 void ConstraintMaker::guide_by_axis() {
@@ -211,7 +213,8 @@ ConstraintPanel::ConstraintPanel(CutoutDocument& document, ConstraintMaker& make
   greatest_ = add_limit(Quantity::Angle, "constraints.greatest", true);
   least_->allow_none("free");
   greatest_->allow_none("free");
-  angle_row_ = section_->add_row("Turn, \u00b0", "Least and greatest angle to the cell that carries it", {least_, greatest_});
+  angle_row_ = section_->add_row("Turn, \u00b0", "Least and greatest angle to the cell that carries it",
+                                 {least_, greatest_});
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(section_);
@@ -253,7 +256,8 @@ const Constraint* ConstraintPanel::chosen() const {
 
 void ConstraintPanel::show_limits() {
   const Constraint* const constraint = chosen();
-  const auto* const distance = constraint ? std::get_if<animation::DistanceLimit>(&constraint->what) : nullptr;
+  const auto* const distance =
+      constraint ? std::get_if<animation::DistanceLimit>(&constraint->what) : nullptr;
   const auto* const joint = constraint ? std::get_if<animation::Joint>(&constraint->what) : nullptr;
   distance_row_.set_visible(distance != nullptr);
   angle_row_.set_visible(joint != nullptr);

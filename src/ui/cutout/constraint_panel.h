@@ -39,7 +39,8 @@ class ConstraintMaker {
   StageView& stage_;
 };
 
-/// The constraints of an animation in words, with the limits of the chosen one. Document and maker outlive it.
+/// The constraints of an animation in words, with the limits of the chosen one. Document and maker outlive
+/// it.
 class ConstraintPanel final : public QWidget {
  public:
   ConstraintPanel(CutoutDocument& document, ConstraintMaker& maker, QWidget* parent);

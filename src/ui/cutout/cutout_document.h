@@ -58,9 +58,9 @@ class CutoutDocument {
   const CellStates& shown() const { return shown_; }
   /// All cells at the present frame by their keys.
   CellStates keyed() const;
-  /// Shows cells as hands wish them, and the others as `from` has them; none: as they are shown. They obey the
-  /// constraints: what hangs on them moves, too, and they themselves only go where they can. Cells of locked
-  /// layers stay. True: what is shown has changed.
+  /// Shows cells as hands wish them, and the others as `from` has them; none: as they are shown. They obey
+  /// the constraints: what hangs on them moves, too, and they themselves only go where they can. Cells of
+  /// locked layers stay. True: what is shown has changed.
   bool try_out(std::vector<animation::Hold> holds, const CellStates* from = nullptr);
   /// Keys what was tried out, as one step to undo; nothing where nothing was, or while it is recorded.
   bool keep();

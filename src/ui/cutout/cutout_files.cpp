@@ -94,7 +94,8 @@ void CutoutFiles::save_to(const std::filesystem::path& file) {
   const auto then = std::exchange(then_, nullptr);
   if (const auto saved = document_.save(file); !saved) return fail(saved.error().message);
   used_(file);
-  tell_({.weight = Note::Weight::Passing, .text = "Saved " + file.filename().string() + ".", .topic = "file"});
+  tell_(
+      {.weight = Note::Weight::Passing, .text = "Saved " + file.filename().string() + ".", .topic = "file"});
   if (then) then();
 }
 
@@ -158,8 +159,9 @@ void CutoutFiles::add_cells(const std::vector<std::filesystem::path>& files, boo
 }
 
 void CutoutFiles::choose_pictures(bool one_cell) {
-  auto* dialog = cutout_dialog(window_, "cutout.pictures",
-                               one_cell ? "Pictures of One Cell" : "Pictures, Each a Cell", {kCellFiles, "All files (*)"});
+  auto* dialog =
+      cutout_dialog(window_, "cutout.pictures", one_cell ? "Pictures of One Cell" : "Pictures, Each a Cell",
+                    {kCellFiles, "All files (*)"});
   dialog->setFileMode(QFileDialog::ExistingFiles);
   QObject::connect(dialog, &QFileDialog::filesSelected, &window_,
                    [=, this](const QStringList& paths) { add_cells(paths_of_texts(paths), one_cell); });
@@ -170,12 +172,14 @@ void CutoutFiles::choose_more_pictures() {
   const animation::Cell* const cell = document_.leading();
   if (cell == nullptr || cell->id == animation::kCamera)
     return document_.remark("Select the cell that is to get more pictures.");
-  auto* dialog = cutout_dialog(window_, "cutout.more_pictures", "More Pictures for the Cell", {kCellFiles, "All files (*)"});
+  auto* dialog = cutout_dialog(window_, "cutout.more_pictures", "More Pictures for the Cell",
+                               {kCellFiles, "All files (*)"});
   dialog->setFileMode(QFileDialog::ExistingFiles);
   QObject::connect(dialog, &QFileDialog::filesSelected, &window_,
                    [this, name = cell->name](const QStringList& paths) {
                      std::vector<std::string> names;
-                     for (const auto& file : paths_of_texts(paths)) names.push_back(document_.name_in_project(file));
+                     for (const auto& file : paths_of_texts(paths))
+                       names.push_back(document_.name_in_project(file));
                      document_.perform(
                          cutout_command("add-picture", {{"cell", name}, {"pictures", command_texts(names)}}));
                    });
@@ -183,7 +187,8 @@ void CutoutFiles::choose_more_pictures() {
 }
 
 void CutoutFiles::choose_folder(bool one_cell) {
-  auto* dialog = cutout_dialog(window_, "cutout.folder", one_cell ? "A Folder as One Cell" : "A Folder as Cells", {});
+  auto* dialog =
+      cutout_dialog(window_, "cutout.folder", one_cell ? "A Folder as One Cell" : "A Folder as Cells", {});
   dialog->setFileMode(QFileDialog::Directory);
   dialog->setOption(QFileDialog::ShowDirsOnly);
   QObject::connect(dialog, &QFileDialog::fileSelected, &window_, [=, this](const QString& path) {
@@ -222,16 +227,16 @@ void CutoutFiles::take_dropped(const std::vector<std::filesystem::path>& files) 
 // Export.
 
 void CutoutFiles::choose_and_export(const animation::ExportOptions& options) {
-  const QStringList filters = {"MP4 film (*.mp4)", "WebM film (*.webm)", "GIF picture (*.gif)",
+  const QStringList filters = {"MP4 film (*.mp4)",      "WebM film (*.webm)",   "GIF picture (*.gif)",
                                "APNG picture (*.apng)", "PNG sequence (*.png)", "SVG sequence (*.svg)"};
   auto* dialog = cutout_writing_dialog(window_, "cutout.export", "Export the Animation", filters);
   dialog->selectFile(QFileInfo(document_.file().empty() ? QString("animation") : name()).completeBaseName());
   QObject::connect(dialog, &QFileDialog::fileSelected, &window_, [=, this](const QString& path) {
     QString out = path;
     // A sequence has the frame's number in its names.
-    const bool is_sequence = path.endsWith(".png", Qt::CaseInsensitive) || path.endsWith(".svg", Qt::CaseInsensitive);
-    if (is_sequence && !path.contains('%'))
-      out = path.chopped(4).replace('%', "%%") + "%04d" + path.right(4);
+    const bool is_sequence =
+        path.endsWith(".png", Qt::CaseInsensitive) || path.endsWith(".svg", Qt::CaseInsensitive);
+    if (is_sequence && !path.contains('%')) out = path.chopped(4).replace('%', "%%") + "%04d" + path.right(4);
     export_to(path_of(out).string(), options);
   });
   dialog->open();
@@ -245,7 +250,8 @@ void CutoutFiles::export_to(const std::string& out, const animation::ExportOptio
       [this](const base::Result<animation::ExportReport>& report) {
         tell_exported(report);
         // Not from within the job's own call.
-        QMetaObject::invokeMethod(&window_, [this] { job_.reset(); }, Qt::QueuedConnection);
+        QMetaObject::invokeMethod(
+            &window_, [this] { job_.reset(); }, Qt::QueuedConnection);
       });
 }
 
@@ -255,8 +261,7 @@ void CutoutFiles::tell_exported(const base::Result<animation::ExportReport>& rep
   std::string where = report->files.empty() ? std::string() : report->files.front();
   if (report->files.size() > 1) where += fmt::format(" and {} more", report->files.size() - 1);
   const std::string text = fmt::format("Exported {} frames as {}: {}", report->frames, report->format, where);
-  if (report->remarks.empty())
-    return tell_({.weight = Note::Weight::Plain, .text = text, .topic = "file"});
+  if (report->remarks.empty()) return tell_({.weight = Note::Weight::Plain, .text = text, .topic = "file"});
   tell_({.weight = Note::Weight::Warning, .text = text, .topic = "file", .details = report->remarks});
 }
 

@@ -109,7 +109,8 @@ CutoutWindow::CutoutWindow(const QString& settings, QWidget* parent)
   document_.on_remark([this](const std::string& remark) { tell_remark(remark); });
   transport_.on_state([this] { show_state(); });
   resize(1360, 900);
-  resizeDocks(findChildren<QDockWidget*>(), {kPanelWidth, kPanelWidth, kPanelWidth, kPanelWidth}, Qt::Horizontal);
+  resizeDocks(findChildren<QDockWidget*>(), {kPanelWidth, kPanelWidth, kPanelWidth, kPanelWidth},
+              Qt::Horizontal);
   show_project();
   show_state();
   stage_->setFocus();
@@ -130,7 +131,8 @@ void CutoutWindow::make_center() {
     place_->setText(QString("%1, %2 px").arg(place.x(), 0, 'f', 0).arg(place.y(), 0, 'f', 0));
   });
   stage_->on_drop([this](const std::vector<std::filesystem::path>& files) { files_.take_dropped(files); });
-  stage_->on_question([this](const QString& question) { hint_->setText(question.isEmpty() ? QString(kHint) : question); });
+  stage_->on_question(
+      [this](const QString& question) { hint_->setText(question.isEmpty() ? QString(kHint) : question); });
   stage_->on_menu([this](QPoint at) { cell_menu_->popup(at); });
   bar_ = new PlayBar(document_, look_, center);
   bar_->on_look([this] { apply_look(); });
@@ -145,7 +147,8 @@ void CutoutWindow::make_center() {
 
 void CutoutWindow::make_docks() {
   setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
-  const auto dock = [this](const char* name, const QString& title, QWidget* content, Qt::DockWidgetArea area) {
+  const auto dock = [this](const char* name, const QString& title, QWidget* content,
+                           Qt::DockWidgetArea area) {
     auto* made = new QDockWidget(title, this);
     made->setObjectName(name);
     made->setWidget(content);
@@ -232,12 +235,14 @@ QAction* CutoutWindow::add_switch(QMenu& menu, const char* name, const char* tex
 /// Lets the keys of an action be its own only over the stage and time, so that panels have theirs.
 void CutoutWindow::only_here(QAction& action) {
   action.setShortcutContext(Qt::WidgetWithChildrenShortcut);
-  for (QWidget* place : {static_cast<QWidget*>(stage_), static_cast<QWidget*>(time_)}) place->addAction(&action);
+  for (QWidget* place : {static_cast<QWidget*>(stage_), static_cast<QWidget*>(time_)})
+    place->addAction(&action);
 }
 
 void CutoutWindow::make_file_menu(QMenu& menu) {
-  add(menu, "file.new", "&New Animation", QKeySequence::New, [] { open_cutout_window({}); })
-      ->setIcon(icon(Icon::New));
+  add(menu, "file.new", "&New Animation", QKeySequence::New, [] {
+    open_cutout_window({});
+  })->setIcon(icon(Icon::New));
   open_ = add(menu, "file.open", "&Open\u2026", QKeySequence::Open, [this] { files_.choose_and_open(); });
   open_->setIcon(icon(Icon::Open));
   recent_menu_ = menu.addMenu("Open &Recent");
@@ -250,9 +255,11 @@ void CutoutWindow::make_file_menu(QMenu& menu) {
   menu.addSeparator();
   add(menu, "file.import_cell", "Import a &Folder as One Cell\u2026", QKeySequence("Ctrl+Shift+I"),
       [this] { files_.choose_folder(true); });
-  add(menu, "file.import_cells", "Import a Folder as &Cells\u2026", {}, [this] { files_.choose_folder(false); });
+  add(menu, "file.import_cells", "Import a Folder as &Cells\u2026", {},
+      [this] { files_.choose_folder(false); });
   add(menu, "file.sound", "So&und\u2026", {}, [this] { files_.choose_sound(); });
-  add(menu, "file.silence", "Take the Sound Away", {}, [this] { document_.perform(cutout_command("silence")); });
+  add(menu, "file.silence", "Take the Sound Away", {},
+      [this] { document_.perform(cutout_command("silence")); });
   menu.addSeparator();
   add(menu, "file.export", "&Export\u2026", QKeySequence("Ctrl+E"), [this] { choose_export(); });
   menu.addSeparator();
@@ -264,9 +271,8 @@ void CutoutWindow::fill_recent() {
   const QStringList labels = recent_.labels();
   for (qsizetype i = 0; i < labels.size(); ++i) {
     const QString path = recent_.paths()[i];
-    recent_menu_->addAction(QString(labels[i]).replace("&", "&&"), this, [this, path] {
-      files_.when_safe([this, path] { files_.open(path_of(path)); });
-    });
+    recent_menu_->addAction(QString(labels[i]).replace("&", "&&"), this,
+                            [this, path] { files_.when_safe([this, path] { files_.open(path_of(path)); }); });
   }
   recent_menu_->setEnabled(!labels.isEmpty());
 }
@@ -280,7 +286,8 @@ void CutoutWindow::make_edit_menu(QMenu& menu) {
   menu.addSeparator();
   add(menu, "edit.copy", "&Copy Keys", QKeySequence::Copy, [this] { copy_keys(); });
   paste_ = add(menu, "edit.paste", "&Paste Keys", QKeySequence::Paste, [this] { paste_keys(); });
-  QAction* const remove = add(menu, "edit.delete", "De&lete", QKeySequence::Delete, [this] { delete_selected(); });
+  QAction* const remove =
+      add(menu, "edit.delete", "De&lete", QKeySequence::Delete, [this] { delete_selected(); });
   remove->setIcon(icon(Icon::Delete));
   menu.addSeparator();
   add(menu, "edit.select_all", "Select &All Cells", QKeySequence::SelectAll, [this] {
@@ -294,7 +301,8 @@ void CutoutWindow::make_edit_menu(QMenu& menu) {
     document_.select_keys({});
     document_.select({});
   });
-  add(menu, "edit.select_camera", "Select the Ca&mera", {}, [this] { document_.select({animation::kCamera}); });
+  add(menu, "edit.select_camera", "Select the Ca&mera", {},
+      [this] { document_.select({animation::kCamera}); });
 }
 
 void CutoutWindow::make_cell_menu(QMenu& menu) {
@@ -302,12 +310,14 @@ void CutoutWindow::make_cell_menu(QMenu& menu) {
   QAction* const pictures = add(menu, "cell.add", "&Add Cells from Pictures\u2026", QKeySequence("Ctrl+I"),
                                 [this] { files_.choose_pictures(false); });
   pictures->setIcon(icon(Icon::Cell));
-  add(menu, "cell.add_one", "Add &One Cell with Several Pictures\u2026", {}, [this] { files_.choose_pictures(true); });
-  of_selection_.push_back(
-      add(menu, "cell.more", "&More Pictures for the Cell\u2026", {}, [this] { files_.choose_more_pictures(); }));
+  add(menu, "cell.add_one", "Add &One Cell with Several Pictures\u2026", {},
+      [this] { files_.choose_pictures(true); });
+  of_selection_.push_back(add(menu, "cell.more", "&More Pictures for the Cell\u2026", {},
+                              [this] { files_.choose_more_pictures(); }));
   add(menu, "cell.layer", "New &Layer", QKeySequence("Ctrl+Shift+N"), [this] { cells_->add_layer(); });
   menu.addSeparator();
-  of_selection_.push_back(add(menu, "cell.rename", "&Rename", QKeySequence("F2"), [this] { cells_->rename(); }));
+  of_selection_.push_back(
+      add(menu, "cell.rename", "&Rename", QKeySequence("F2"), [this] { cells_->rename(); }));
   of_selection_.push_back(add(menu, "cell.duplicate", "&Duplicate", QKeySequence("Ctrl+D"), [this] {
     const animation::Cell* const cell = document_.leading();
     if (cell != nullptr) document_.perform(cutout_command("copy-cell", {{"cell", cell->name}}));
@@ -331,7 +341,8 @@ void CutoutWindow::make_constraint_menu(QMenu& menu) {
   constrain("cell.chain", "&Chain to the Cell", Icon::Chain, [this] { maker_->chain(); });
   constrain("cell.distance", "Keep the &Distance", Icon::Distance, [this] { maker_->keep_distance(); });
   constrain("cell.path", "Follow a &Path", Icon::Way, [this] { maker_->guide_by_path(false); });
-  constrain("cell.turning_path", "Follow a Path, &Turning", Icon::Way, [this] { maker_->guide_by_path(true); });
+  constrain("cell.turning_path", "Follow a Path, &Turning", Icon::Way,
+            [this] { maker_->guide_by_path(true); });
   constrain("cell.axis", "Stay on an &Axis", Icon::Axis, [this] { maker_->guide_by_axis(); });
   menu.addSeparator();
   constrain("cell.release", "&Release", Icon::Delete, [this] { maker_->release(); });
@@ -361,15 +372,15 @@ void CutoutWindow::make_frame_menu(QMenu& menu) {
 
 void CutoutWindow::make_key_menu(QMenu& menu) {
   key_menu_ = &menu;
-  QAction* const hold =
-      add(menu, "key.hold", "Set &Keys Here", QKeySequence("K"), [this] { hold_here(); });
+  QAction* const hold = add(menu, "key.hold", "Set &Keys Here", QKeySequence("K"), [this] { hold_here(); });
   hold->setIcon(icon(Icon::AddKey));
   hold->setToolTip("Set keys of the selected cells here, so that they stay so");
   menu.addSeparator();
   add(menu, "key.ease_hold", "&Hold", QKeySequence("Alt+1"), [this] { ease_chosen(animation::Ease::Hold); });
   add(menu, "key.ease_straight", "&Straight", QKeySequence("Alt+2"),
       [this] { ease_chosen(animation::Ease::Straight); });
-  add(menu, "key.ease_eased", "&Eased", QKeySequence("Alt+3"), [this] { ease_chosen(animation::Ease::Eased); });
+  add(menu, "key.ease_eased", "&Eased", QKeySequence("Alt+3"),
+      [this] { ease_chosen(animation::Ease::Eased); });
   menu.addSeparator();
   add(menu, "key.copy", "&Copy", {}, [this] { copy_keys(); });
   add(menu, "key.paste", "&Paste Here", {}, [this] { paste_keys(); });
@@ -382,9 +393,8 @@ void CutoutWindow::make_key_menu(QMenu& menu) {
 }
 
 void CutoutWindow::make_play_menu(QMenu& menu) {
-  play_ = add(menu, "frame.play", "P&lay", QKeySequence("P"), [this] {
-    transport_.is_still() ? transport_.play() : transport_.stop();
-  });
+  play_ = add(menu, "frame.play", "P&lay", QKeySequence("P"),
+              [this] { transport_.is_still() ? transport_.play() : transport_.stop(); });
   QAction* const again = add(menu, "frame.again", "Play A&gain and Again", QKeySequence("L"), [] {});
   again->setCheckable(true);
   again->setIcon(icon(Icon::Again));
@@ -397,7 +407,8 @@ void CutoutWindow::make_play_menu(QMenu& menu) {
   record_ = add(menu, "frame.record", "&Record", QKeySequence("R"), [this] { record(false); });
   record_->setIcon(icon(Icon::Record));
   record_->setToolTip("Record what the hands or the mouse do, after a count-in");
-  add(menu, "frame.record_layer", "Record This La&yer Only", QKeySequence("Shift+R"), [this] { record(true); });
+  add(menu, "frame.record_layer", "Record This La&yer Only", QKeySequence("Shift+R"),
+      [this] { record(true); });
   QAction* const count = add(menu, "frame.count_in", "&Count In", {}, [] {});
   count->setCheckable(true);
   count->setChecked(true);
@@ -417,7 +428,8 @@ void CutoutWindow::make_step_menu(QMenu& menu) {
     if (const auto frame = key_before(document_.project(), document_.selection(), document_.frame()))
       document_.go_to(*frame);
   });
-  step("frame.previous", "Frame &Before", ",", Icon::Previous, [this] { document_.go_to(document_.frame() - 1); });
+  step("frame.previous", "Frame &Before", ",", Icon::Previous,
+       [this] { document_.go_to(document_.frame() - 1); });
   steps_.push_back(play_);
   step("frame.next", "&Next Frame", ".", Icon::Next, [this] { document_.go_to(document_.frame() + 1); });
   step("frame.next_key", "Next &Key", "Ctrl+.", Icon::NextKey, [this] {
@@ -428,10 +440,12 @@ void CutoutWindow::make_step_menu(QMenu& menu) {
 }
 
 void CutoutWindow::make_view_menu(QMenu& menu) {
-  add(menu, "view.fit", "&Whole Stage", QKeySequence("Ctrl+0"), [this] { stage_->fit(); })
-      ->setIcon(icon(Icon::ZoomToSelection));
+  add(menu, "view.fit", "&Whole Stage", QKeySequence("Ctrl+0"), [this] {
+    stage_->fit();
+  })->setIcon(icon(Icon::ZoomToSelection));
   add(menu, "view.closer", "&Closer", QKeySequence::ZoomIn, [this] { stage_->zoom(kStageZoomStep); });
-  add(menu, "view.farther", "&Farther", QKeySequence::ZoomOut, [this] { stage_->zoom(1.0 / kStageZoomStep); });
+  add(menu, "view.farther", "&Farther", QKeySequence::ZoomOut,
+      [this] { stage_->zoom(1.0 / kStageZoomStep); });
   menu.addSeparator();
   add_switch(menu, "view.onion", "&Onion Skin", QKeySequence("O"), look_.onion,
              "Shows the poses before and after faintly")
@@ -441,7 +455,8 @@ void CutoutWindow::make_view_menu(QMenu& menu) {
       ->setIcon(icon(Icon::Camera));
   add_switch(menu, "view.camera_frame", "The Camera\u2019s F&rame", {}, look_.camera_frame,
              "Frames on the stage what the camera sees");
-  add_switch(menu, "view.constraints", "Co&nstraints", {}, look_.constraints, "Draws joints, paths and the like");
+  add_switch(menu, "view.constraints", "Co&nstraints", {}, look_.constraints,
+             "Draws joints, paths and the like");
   menu.addSeparator();
   add(menu, "view.timeline", "&Timeline", QKeySequence("F3"), [this] {
     time_->setCurrentWidget(timeline_);
@@ -451,11 +466,11 @@ void CutoutWindow::make_view_menu(QMenu& menu) {
     time_->setCurrentWidget(sheet_);
     sheet_->setFocus();
   });
-  add(menu, "view.watch", "&Watch the Table", QKeySequence("Ctrl+T"), [this] {
-    table_->is_running() ? table_->stop() : table_->start();
-  });
+  add(menu, "view.watch", "&Watch the Table", QKeySequence("Ctrl+T"),
+      [this] { table_->is_running() ? table_->stop() : table_->start(); });
   add(menu, "view.all_frames", "&All Frames", {}, [this] { timeline_->fit(); });
-  add(menu, "view.longer", "Timeline Closer", QKeySequence("Ctrl+Shift++"), [this] { timeline_->zoom(kStageZoomStep); });
+  add(menu, "view.longer", "Timeline Closer", QKeySequence("Ctrl+Shift++"),
+      [this] { timeline_->zoom(kStageZoomStep); });
   add(menu, "view.shorter", "Timeline Farther", QKeySequence("Ctrl+Shift+-"),
       [this] { timeline_->zoom(1.0 / kStageZoomStep); });
   menu.addSeparator();
@@ -466,8 +481,9 @@ void CutoutWindow::make_view_menu(QMenu& menu) {
 }
 
 void CutoutWindow::make_help_menu(QMenu& menu) {
-  add(menu, "help.shortcuts", "&Keys and Mouse", QKeySequence("F1"), [this] { show_shortcuts(); })
-      ->setIcon(icon(Icon::Help));
+  add(menu, "help.shortcuts", "&Keys and Mouse", QKeySequence("F1"), [this] {
+    show_shortcuts();
+  })->setIcon(icon(Icon::Help));
 }
 
 void CutoutWindow::make_bars() {
@@ -604,7 +620,8 @@ void CutoutWindow::hold_here() {
   if (document_.tried()) document_.keep();
   if (document_.selection().empty()) return document_.remark("Select the cells that are to get keys.");
   document_.perform(held_keys(document_.project(), document_.selection(),
-                              {animation::kAllChannels.begin(), animation::kAllChannels.end()}, document_.frame()));
+                              {animation::kAllChannels.begin(), animation::kAllChannels.end()},
+                              document_.frame()));
 }
 
 void CutoutWindow::ease_chosen(animation::Ease ease) {
@@ -631,12 +648,13 @@ void CutoutWindow::paste_keys() {
 
 void CutoutWindow::delete_selected() {
   const QWidget* const focus = QApplication::focusWidget();
-  const auto is_in = [&](const QWidget* part) { return focus == part || (focus != nullptr && part->isAncestorOf(focus)); };
+  const auto is_in = [&](const QWidget* part) {
+    return focus == part || (focus != nullptr && part->isAncestorOf(focus));
+  };
   if (is_in(sheet_)) {
     const animation::Cell* const cell = document_.leading();
     if (cell != nullptr)
-      document_.perform(
-          deleted_keys(document_.project(), {{cell->id, Channel::Picture, document_.frame()}}));
+      document_.perform(deleted_keys(document_.project(), {{cell->id, Channel::Picture, document_.frame()}}));
     return;
   }
   if (is_in(timeline_) || document_.selection().empty()) {
@@ -670,10 +688,12 @@ void CutoutWindow::ask_mark(int frame) {
   dialog->setObjectName("cutout.mark");
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle("Mark");
-  dialog->setLabelText(QString("Word at frame %1, such as a sound of speech; empty takes it away:").arg(frame));
+  dialog->setLabelText(
+      QString("Word at frame %1, such as a sound of speech; empty takes it away:").arg(frame));
   for (const animation::Mark& mark : document_.project().marks)
     if (mark.frame == frame) dialog->setTextValue(QString::fromStdString(mark.text));
-  connect(dialog, &QInputDialog::textValueSelected, this, [=, this](const QString& text) { set_mark(frame, text); });
+  connect(dialog, &QInputDialog::textValueSelected, this,
+          [=, this](const QString& text) { set_mark(frame, text); });
   dialog->open();
 }
 
@@ -708,7 +728,8 @@ void CutoutWindow::offer_lost() {
     if (remedy != Note::Remedy::Recover) return;
     files_.when_safe([this, kept = note.journal] {
       const auto recovered = document_.recover(kept);
-      if (!recovered) return tell({.weight = Note::Weight::Error, .text = recovered.error().message, .topic = "file"});
+      if (!recovered)
+        return tell({.weight = Note::Weight::Error, .text = recovered.error().message, .topic = "file"});
       tell({.text = "Your work was recovered. Save it to keep it.", .topic = "file"});
     });
   });
@@ -718,8 +739,8 @@ void CutoutWindow::offer_lost() {
     const auto when = std::chrono::time_point_cast<std::chrono::system_clock::duration>(
         std::chrono::file_clock::to_sys(error ? std::filesystem::last_write_time(kept, error) : written));
     banner_->tell({.weight = Note::Weight::Warning,
-                   .text = "There is work on an animation from " + time_text(when, std::chrono::system_clock::now()) +
-                           " that was never saved.",
+                   .text = "There is work on an animation from " +
+                           time_text(when, std::chrono::system_clock::now()) + " that was never saved.",
                    .topic = kept.string(),
                    .remedies = {Note::Remedy::Recover, Note::Remedy::DiscardJournal},
                    .journal = kept});

@@ -18,8 +18,8 @@ class ExportJob {
   using Progress = std::function<void(double part)>;
 
   /// Both are called on the thread that makes the job.
-  ExportJob(const CutoutDocument& document, std::string out, animation::ExportOptions options, Progress progress,
-            Done done);
+  ExportJob(const CutoutDocument& document, std::string out, animation::ExportOptions options,
+            Progress progress, Done done);
   /// Stops it, which takes away what was written.
   ~ExportJob();
   ExportJob(const ExportJob&) = delete;

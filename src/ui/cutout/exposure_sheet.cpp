@@ -13,12 +13,12 @@
 namespace icome::ui {
 namespace {
 
-constexpr double kSheetHeads = 44.0;        // pixels, for the names of layers and cells
-constexpr double kFrameLine = 20.0;         // pixels for a frame
-constexpr double kFrameNumbers = 44.0;      // pixels
-constexpr double kSoundColumn = 48.0;  // pixels
-constexpr double kMarkColumn = 84.0;   // pixels
-constexpr double kCellColumn = 92.0;   // pixels
+constexpr double kSheetHeads = 44.0;    // pixels, for the names of layers and cells
+constexpr double kFrameLine = 20.0;     // pixels for a frame
+constexpr double kFrameNumbers = 44.0;  // pixels
+constexpr double kSoundColumn = 48.0;   // pixels
+constexpr double kMarkColumn = 84.0;    // pixels
+constexpr double kCellColumn = 92.0;    // pixels
 constexpr double kSheetMargin = kFrameNumbers + kSoundColumn + kMarkColumn;
 
 }  // namespace
@@ -68,10 +68,12 @@ void ExposureSheet::show_sound(std::shared_ptr<const SoundShape> shape) {
 
 void ExposureSheet::set_bars() {
   const double height = viewport()->height() - kSheetHeads, width = viewport()->width() - kSheetMargin;
-  verticalScrollBar()->setRange(0, std::max(0, int(std::ceil(document_.project().stage.length * kFrameLine - height))));
+  verticalScrollBar()->setRange(
+      0, std::max(0, int(std::ceil(document_.project().stage.length * kFrameLine - height))));
   verticalScrollBar()->setPageStep(std::max(1, int(height)));
   verticalScrollBar()->setSingleStep(int(kFrameLine));
-  horizontalScrollBar()->setRange(0, std::max(0, int(std::ceil(double(columns_.size()) * kCellColumn - width))));
+  horizontalScrollBar()->setRange(0,
+                                  std::max(0, int(std::ceil(double(columns_.size()) * kCellColumn - width))));
   horizontalScrollBar()->setPageStep(std::max(1, int(width)));
   horizontalScrollBar()->setSingleStep(int(kCellColumn));
 }
@@ -87,7 +89,9 @@ bool ExposureSheet::viewportEvent(QEvent* event) {
 
 // Places.
 
-double ExposureSheet::top_of(int frame) const { return kSheetHeads + frame * kFrameLine - verticalScrollBar()->value(); }
+double ExposureSheet::top_of(int frame) const {
+  return kSheetHeads + frame * kFrameLine - verticalScrollBar()->value();
+}
 
 int ExposureSheet::frame_at(double y) const {
   return int(std::floor((y - kSheetHeads + verticalScrollBar()->value()) / kFrameLine));
@@ -121,7 +125,8 @@ void ExposureSheet::choose_column(std::size_t column) {
   document_.select({columns_[column].cell});
   const double left = left_of(column);
   if (left < kSheetMargin || left + kCellColumn > viewport()->width())
-    horizontalScrollBar()->setValue(int(double(column) * kCellColumn - 0.3 * (viewport()->width() - kSheetMargin)));
+    horizontalScrollBar()->setValue(
+        int(double(column) * kCellColumn - 0.3 * (viewport()->width() - kSheetMargin)));
 }
 
 void ExposureSheet::expose(CellId cell, int frame, int picture) {
@@ -140,7 +145,8 @@ void ExposureSheet::paintEvent(QPaintEvent* /*event*/) {
   QColor wash = theme.accent;
   wash.setAlphaF(0.14F);
   painter.fillRect(QRectF(0, top_of(document_.frame()), viewport()->width(), kFrameLine), wash);
-  painter.setClipRect(QRectF(kSheetMargin, kSheetHeads, viewport()->width() - kSheetMargin, viewport()->height()));
+  painter.setClipRect(
+      QRectF(kSheetMargin, kSheetHeads, viewport()->width() - kSheetMargin, viewport()->height()));
   for (std::size_t column = 0; column < columns_.size(); ++column) paint_column(painter, column, first, last);
   painter.setClipping(false);
   paint_margin(painter, first, last);
@@ -166,8 +172,8 @@ void ExposureSheet::paint_margin(QPainter& painter, int first, int last) {
   for (int frame = first; frame <= last; ++frame) {
     const QRectF line(0, top_of(frame), kSheetMargin, kFrameLine);
     painter.setPen(frame % second == 0 ? theme.text : theme.faint);
-    painter.drawText(QRectF(0, line.top(), kFrameNumbers - 2.0 * kGrid, kFrameLine), Qt::AlignVCenter | Qt::AlignRight,
-                     QString::number(frame));
+    painter.drawText(QRectF(0, line.top(), kFrameNumbers - 2.0 * kGrid, kFrameLine),
+                     Qt::AlignVCenter | Qt::AlignRight, QString::number(frame));
     painter.setPen(frame % second == 0 ? theme.line : theme.grid);
     painter.drawLine(line.topLeft(), QPointF(viewport()->width(), line.top()));
     if (project.sound && sound_) {
@@ -188,8 +194,9 @@ void ExposureSheet::paint_margin(QPainter& painter, int first, int last) {
     if (mark.frame < first || mark.frame > last) continue;
     const QRectF box(kFrameNumbers + kSoundColumn, top_of(mark.frame), kMarkColumn, kFrameLine);
     painter.setPen(theme.link_text);
-    painter.drawText(box.adjusted(kGrid, 0, -kGrid, 0), Qt::AlignVCenter | Qt::AlignLeft,
-                     painter.fontMetrics().elidedText(one_line(mark.text), Qt::ElideRight, int(kMarkColumn) - 8));
+    painter.drawText(
+        box.adjusted(kGrid, 0, -kGrid, 0), Qt::AlignVCenter | Qt::AlignLeft,
+        painter.fontMetrics().elidedText(one_line(mark.text), Qt::ElideRight, int(kMarkColumn) - 8));
   }
   painter.setPen(theme.line);
   for (const double x : {kFrameNumbers, kFrameNumbers + kSoundColumn, kSheetMargin})
@@ -218,12 +225,13 @@ void ExposureSheet::paint_heads(QPainter& painter) {
       const animation::Layer* const layer = document_.project().find(columns_[i].layer);
       painter.setPen(theme.faint);
       if (layer != nullptr)
-        painter.drawText(QRectF(head.left() + kGrid, 0, kCellColumn * 3, half), Qt::AlignVCenter | Qt::AlignLeft,
-                         one_line(layer->name));
+        painter.drawText(QRectF(head.left() + kGrid, 0, kCellColumn * 3, half),
+                         Qt::AlignVCenter | Qt::AlignLeft, one_line(layer->name));
     }
     painter.setPen(is_selected ? theme.selection_text : theme.text);
-    painter.drawText(head.adjusted(kGrid, half, -kGrid, 0), Qt::AlignCenter,
-                     painter.fontMetrics().elidedText(columns_[i].name, Qt::ElideRight, int(kCellColumn) - 8));
+    painter.drawText(
+        head.adjusted(kGrid, half, -kGrid, 0), Qt::AlignCenter,
+        painter.fontMetrics().elidedText(columns_[i].name, Qt::ElideRight, int(kCellColumn) - 8));
     painter.setPen(begins ? theme.line : theme.grid);
     painter.drawLine(head.topLeft() + QPointF(0, begins ? 0 : half), head.bottomLeft());
   }
@@ -314,7 +322,8 @@ void ExposureSheet::show_pictures(QPoint at) {
   const CellId id = cell->id;
   for (int picture = -1; picture < int(cell->pictures.size()); ++picture) {
     const QString name = picture < 0 ? QString("No picture") : shortened(short_picture_name(*cell, picture));
-    menu->addAction(QString("%1  %2").arg(picture + 1).arg(name), this, [=, this] { expose(id, frame, picture); });
+    menu->addAction(QString("%1  %2").arg(picture + 1).arg(name), this,
+                    [=, this] { expose(id, frame, picture); });
   }
   menu->addSeparator();
   QAction* const hold = menu->addAction("Go on with the one before", this, [=, this] {
@@ -358,7 +367,8 @@ void ExposureSheet::keyPressEvent(QKeyEvent* event) {
       return choose_column(column < columns_.size() ? column + 1 : 0);
     case Qt::Key_Return:
     case Qt::Key_Enter:
-      if (typed_.isEmpty()) return show_pictures(viewport()->mapToGlobal(place_of(column, document_.frame()).toPoint()));
+      if (typed_.isEmpty())
+        return show_pictures(viewport()->mapToGlobal(place_of(column, document_.frame()).toPoint()));
       return end_typing(true);
     case Qt::Key_Backspace:
       typed_.chop(1);

@@ -174,10 +174,10 @@ CopiedKeys copied_keys(const Project& project, const KeyPlaces& keys) {
 
 ProjectEdit pasted_keys(const Project& project, const CopiedKeys& copied, int frame,
                         const std::vector<CellId>& cells) {
-  const bool of_one = !copied.pieces.empty() &&
-                      std::ranges::all_of(copied.pieces, [&](const CopiedKeys::Piece& piece) {
-                        return piece.cell == copied.pieces.front().cell;
-                      });
+  const bool of_one =
+      !copied.pieces.empty() && std::ranges::all_of(copied.pieces, [&](const CopiedKeys::Piece& piece) {
+        return piece.cell == copied.pieces.front().cell;
+      });
   TrackBench bench(project);
   for (const CopiedKeys::Piece& piece : copied.pieces) {
     const CellId cell = of_one && cells.size() == 1 ? cells.front() : piece.cell;
@@ -203,7 +203,8 @@ ProjectEdit held_keys(const Project& project, const std::vector<CellId>& cells,
       if (std::ranges::find(own, channel) == own.end()) continue;
       const Track& track = cell->tracks[std::size_t(channel)];
       if (animation::key_at(track, frame) != nullptr) continue;
-      bench.put(id, channel, {frame, animation::channel_of(state, channel), ease_there(track, channel, frame)});
+      bench.put(id, channel,
+                {frame, animation::channel_of(state, channel), ease_there(track, channel, frame)});
     }
   }
   return bench.edit();

@@ -31,8 +31,8 @@ struct CopiedKeys {
   std::vector<Piece> pieces;
 };
 
-// Edits of keys that a person has chosen, which may be of several cells and channels. Places without a key are
-// passed over.
+// Edits of keys that a person has chosen, which may be of several cells and channels. Places without a key
+// are passed over.
 
 /// The change that makes one track of a cell of another; nothing where they are equal.
 std::optional<animation::ChangeKeys> track_change(CellId cell, Channel channel, const animation::Track& from,

@@ -15,7 +15,8 @@ struct CutoutWindowOptions {
 /// display, standard error tells what goes without one, and 1 is returned.
 int run_cutout_window(int argc, char** argv, const CutoutWindowOptions& options);
 
-/// Opens a window of its own for an animation, which is gone when it is closed; an empty stage without a file.
+/// Opens a window of its own for an animation, which is gone when it is closed; an empty stage without a
+/// file.
 void open_cutout_window(const std::filesystem::path& file);
 /// Is it an animation's file, by its name?
 bool is_cutout_file(const std::filesystem::path& file);

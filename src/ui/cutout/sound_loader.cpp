@@ -45,7 +45,8 @@ void SoundLoader::follow(const CutoutDocument& document) {
   threads_.emplace_back([this, number = number_, folder = document.folder(), what = *sound] {
     const Loaded loaded = read_loaded(folder, what);
     QMetaObject::invokeMethod(
-        &here_, [=, this] {
+        &here_,
+        [=, this] {
           if (number == number_) loaded_(loaded);
         },
         Qt::QueuedConnection);

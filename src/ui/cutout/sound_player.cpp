@@ -49,7 +49,8 @@ class AlsaOutput final : public SoundOutput {
   }
   double delay() override {
     snd_pcm_sframes_t moments = 0;
-    return snd_pcm_delay(sound_, &moments) < 0 ? 0.0 : double(std::max<snd_pcm_sframes_t>(0, moments)) / rate_;
+    return snd_pcm_delay(sound_, &moments) < 0 ? 0.0
+                                               : double(std::max<snd_pcm_sframes_t>(0, moments)) / rate_;
   }
   void drop() override {
     snd_pcm_drop(sound_);
@@ -91,13 +92,13 @@ struct SoundPlayer::Parts {
   std::unique_ptr<SoundOutput> output;
   mutable std::mutex lock;
   std::condition_variable_any asked;
-  Fill wanted;            // none: silence
+  Fill wanted;             // none: silence
   std::uint64_t turn = 0;  // of play() and stop()
   bool is_playing = false;
   // What was heard at a time on the steady clock; none before the first piece.
   std::optional<double> heard_then;
-  std::int64_t then = 0;   // ns
-  double written = 0.0;    // s that the output has been given
+  std::int64_t then = 0;  // ns
+  double written = 0.0;   // s that the output has been given
   std::jthread thread;
 
   void run(const std::stop_token& end);
@@ -149,7 +150,8 @@ void SoundPlayer::Parts::run(const std::stop_token& end) {
   }
 }
 
-SoundPlayer::SoundPlayer(std::unique_ptr<SoundOutput> output) : parts_(std::make_unique<Parts>(std::move(output))) {
+SoundPlayer::SoundPlayer(std::unique_ptr<SoundOutput> output)
+    : parts_(std::make_unique<Parts>(std::move(output))) {
   parts_->thread = std::jthread([&its = *parts_](const std::stop_token& end) { its.run(end); });
 }
 

@@ -10,8 +10,8 @@ namespace {
 using animation::Affine2;
 using animation::Vector2;
 
-constexpr double kJointRadius = 4.5;    // pixels
-constexpr double kAxisReach = 10'000;   // px of the stage: beyond every edge
+constexpr double kJointRadius = 4.5;   // pixels
+constexpr double kAxisReach = 10'000;  // px of the stage: beyond every edge
 
 /// Draws constraints of one kind after the other.
 class ConstraintPainter {
@@ -21,7 +21,8 @@ class ConstraintPainter {
 
   void paint(const animation::Constraint& constraint) {
     const auto cells = animation::cells_of(constraint);
-    const bool is_chosen = std::ranges::any_of(cells, [&](CellId cell) { return document_.is_selected(cell); });
+    const bool is_chosen =
+        std::ranges::any_of(cells, [&](CellId cell) { return document_.is_selected(cell); });
     colour_ = is_chosen ? colours().accent : colours().link_text;
     colour_.setAlphaF(is_chosen ? 1.0F : 0.55F);
     std::visit([this](const auto& what) { paint_one(what); }, constraint.what);
@@ -52,7 +53,8 @@ class ConstraintPainter {
     for (std::size_t i = 1; i < chain.cells.size(); ++i)
       for (const animation::Constraint& constraint : document_.project().constraints) {
         const auto* const joint = std::get_if<animation::Joint>(&constraint.what);
-        if (joint == nullptr || joint->child != chain.cells[i] || joint->parent != chain.cells[i - 1]) continue;
+        if (joint == nullptr || joint->child != chain.cells[i] || joint->parent != chain.cells[i - 1])
+          continue;
         if (const auto at = on_screen(joint->child, joint->on_child)) way << *at;
       }
     if (!chain.cells.empty()) {

@@ -16,10 +16,10 @@ using animation::CellState;
 using animation::Hold;
 using animation::Vector2;
 
-constexpr double kHandleReach = 9.0;   // pixels around a handle that count as it
-constexpr double kHandleSide = 8.0;    // pixels
-constexpr double kTurnStalk = 26.0;    // pixels from the frame to the handle that turns
-constexpr double kPivotRadius = 5.5;   // pixels
+constexpr double kHandleReach = 9.0;  // pixels around a handle that count as it
+constexpr double kHandleSide = 8.0;   // pixels
+constexpr double kTurnStalk = 26.0;   // pixels from the frame to the handle that turns
+constexpr double kPivotRadius = 5.5;  // pixels
 constexpr double kSmallestFactor = 0.01;
 constexpr double kStrictTurn = M_PI / 12.0;
 
@@ -138,7 +138,8 @@ void paint_handles(QPainter& painter, const HandleFrame& frame, StageGrip under_
   // A light line under the accent's, so that it is seen on any picture.
   const QPolygonF polygon(QList<QPointF>(frame.corners.begin(), frame.corners.end()));
   painter.setBrush(Qt::NoBrush);
-  for (const auto& [colour, width] : {std::pair(QColor(255, 255, 255, 150), 3.0), std::pair(theme.accent, 1.4)}) {
+  for (const auto& [colour, width] :
+       {std::pair(QColor(255, 255, 255, 150), 3.0), std::pair(theme.accent, 1.4)}) {
     painter.setPen(pen(colour, width));
     painter.drawPolygon(polygon);
     painter.drawLine(frame.top, frame.turn);
@@ -149,7 +150,8 @@ void paint_handles(QPainter& painter, const HandleFrame& frame, StageGrip under_
   };
   dress(StageGrip::Scale);
   for (const QPointF& corner : frame.corners)
-    painter.drawRect(QRectF(corner - 0.5 * QPointF(kHandleSide, kHandleSide), QSizeF(kHandleSide, kHandleSide)));
+    painter.drawRect(
+        QRectF(corner - 0.5 * QPointF(kHandleSide, kHandleSide), QSizeF(kHandleSide, kHandleSide)));
   dress(StageGrip::Turn);
   painter.drawEllipse(frame.turn, 0.55 * kHandleSide, 0.55 * kHandleSide);
   if (!frame.pivot) return;
@@ -168,8 +170,7 @@ StageDrag begin_drag(const CutoutDocument& document, StageGrip grip, const Vecto
 std::vector<Hold> dragged(const CutoutDocument& document, const StageDrag& drag, const Vector2& to,
                           bool strict) {
   Vector2 way = to - drag.from;
-  if (strict && drag.grip == StageGrip::Move)
-    (std::abs(way.x()) > std::abs(way.y()) ? way.y() : way.x()) = 0;
+  if (strict && drag.grip == StageGrip::Move) (std::abs(way.x()) > std::abs(way.y()) ? way.y() : way.x()) = 0;
   const Vector2 arm_before = drag.from - drag.middle, arm = to - drag.middle;
   double turn = arm.isZero() || arm_before.isZero() ? 0.0 : angle_as_seen(arm) - angle_as_seen(arm_before);
   turn = std::remainder(turn, 2 * M_PI);
@@ -218,7 +219,8 @@ std::vector<Hold> nudged(const CutoutDocument& document, const Vector2& by) {
   return dragged(document, drag, drag.from + by, false);
 }
 
-std::optional<interaction::Value> pivot_command(const CutoutDocument& document, CellId id, const Vector2& place) {
+std::optional<interaction::Value> pivot_command(const CutoutDocument& document, CellId id,
+                                                const Vector2& place) {
   const Cell* const cell = document.project().find(id);
   const auto found = document.shown().find(id);
   if (cell == nullptr || found == document.shown().end() || id == animation::kCamera) return std::nullopt;

@@ -24,7 +24,8 @@ struct HandleFrame {
 std::optional<std::array<animation::Vector2, 4>> corners_of(CutoutDocument& document, CellId cell);
 
 /// None where nothing that is selected is shown.
-std::optional<HandleFrame> handle_frame(CutoutDocument& document, const animation::Affine2& screen_from_stage);
+std::optional<HandleFrame> handle_frame(CutoutDocument& document,
+                                        const animation::Affine2& screen_from_stage);
 /// The handle at a place of the screen; Move within the frame.
 StageGrip grip_at(const HandleFrame& frame, QPointF at);
 void paint_handles(QPainter& painter, const HandleFrame& frame, StageGrip under_pointer);

@@ -34,7 +34,8 @@ StagePanel::StagePanel(CutoutDocument& document, CutoutLook& look, QWidget* pare
 }
 
 QuantityField* StagePanel::add_field(PanelSection& section, Quantity quantity, const char* name,
-                                     const QString& accessible, std::function<base::Result<void>(double)> commit) {
+                                     const QString& accessible,
+                                     std::function<base::Result<void>(double)> commit) {
   auto* field = new QuantityField(quantity, section.body());
   field->setObjectName(name);
   field->setAccessibleName(accessible);
@@ -70,7 +71,8 @@ void StagePanel::add_stage_rows() {
   background_ = new ColourButton("Background", stage_->body());
   background_->on_choice([this](const world::Colour& colour) {
     document_.perform(cutout_command(
-        "stage", {{"background", interaction::Value::List{double(colour[0]), double(colour[1]), double(colour[2])}}}));
+        "stage",
+        {{"background", interaction::Value::List{double(colour[0]), double(colour[1]), double(colour[2])}}}));
   });
   stage_->add_row("Background", "The colour where no cell lies", {background_});
 }
@@ -85,7 +87,8 @@ void StagePanel::add_sound_rows() {
                        document_.perform(cutout_command("sound", {{"start", value}}));
                        return {};
                      });
-  start_row_ = sound_->add_row("Start, s", "When the sound begins; below 0 its beginning is cut off", {start_});
+  start_row_ =
+      sound_->add_row("Start, s", "When the sound begins; below 0 its beginning is cut off", {start_});
   gain_ = add_field(*sound_, Quantity::Share, "sound.gain", "Loudness of the sound",
                     [this](double value) -> base::Result<void> {
                       if (value < 0.0 || value > 4.0) return base::fail("A loudness is from 0 to 400 %.");

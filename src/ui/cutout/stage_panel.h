@@ -20,8 +20,8 @@ class StagePanel final : public QWidget {
   void on_look(std::function<void()> look) { looked_ = std::move(look); }
 
  private:
-  QuantityField* add_field(PanelSection& section, Quantity quantity, const char* name, const QString& accessible,
-                           std::function<base::Result<void>(double)> commit);
+  QuantityField* add_field(PanelSection& section, Quantity quantity, const char* name,
+                           const QString& accessible, std::function<base::Result<void>(double)> commit);
   std::function<base::Result<void>(double)> stage_setter(const char* parameter, double least, double most);
   void add_stage_rows();
   void add_sound_rows();

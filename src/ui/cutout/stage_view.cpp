@@ -40,8 +40,8 @@ animation::OnionSkin onion_skin(const CutoutDocument& document, int frame, int a
   animation::OnionSkin skin;
   skin.states = animation::states_at(document.project(), frame);
   skin.look.opacity = kOnionOpacityNear * std::pow(kOnionFades, away - 1);
-  skin.look.tint = before ? animation::Tint{{0.90F, 0.22F, 0.20F}, 0.6}
-                          : animation::Tint{{0.13F, 0.62F, 0.30F}, 0.6};
+  skin.look.tint =
+      before ? animation::Tint{{0.90F, 0.22F, 0.20F}, 0.6} : animation::Tint{{0.13F, 0.62F, 0.30F}, 0.6};
   return skin;
 }
 
@@ -64,7 +64,8 @@ StageView::StageView(CutoutDocument& document, const CutoutLook& look, QWidget* 
     : QWidget(parent), document_(document), look_(look) {
   setObjectName("stage");
   setAccessibleName("Stage");
-  setAccessibleDescription("Click on a cell to select it and drag to move it. Arrow keys move what is selected.");
+  setAccessibleDescription(
+      "Click on a cell to select it and drag to move it. Arrow keys move what is selected.");
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   setAcceptDrops(true);
@@ -76,8 +77,8 @@ Affine2 StageView::screen_from_stage() const {
   Affine2 page = scale_.screen_from_page();
   if (!look_.through_camera) return page;
   const animation::Stage& stage = document_.project().stage;
-  return page * animation::picture_from_stage(document_.project(), document_.shown(), {.through_camera = true},
-                                              stage.width, stage.height);
+  return page * animation::picture_from_stage(document_.project(), document_.shown(),
+                                              {.through_camera = true}, stage.width, stage.height);
 }
 
 void StageView::refresh() {
@@ -207,7 +208,8 @@ void StageView::paint_surroundings(QPainter& painter) {
   painter.setPen(QPen(colours().line, 1.0));
   painter.drawRect(whole);
   const auto camera = corners_of(document_, animation::kCamera);
-  if (look_.through_camera || !look_.camera_frame || !camera || document_.is_selected(animation::kCamera)) return;
+  if (look_.through_camera || !look_.camera_frame || !camera || document_.is_selected(animation::kCamera))
+    return;
   QPolygonF frame;
   for (const Vector2& corner : *camera) frame << point_of(screen_from_stage() * corner);
   QColor light = colours().link_text;
@@ -244,8 +246,8 @@ void StageView::paint_question(QPainter& painter) {
     painter.drawPolyline(way);
   }
   const QRectF words = QRectF(rect()).adjusted(0, 3.0 * kGrid, 0, 0);
-  const QRectF place =
-      painter.fontMetrics().boundingRect(words.toRect(), Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, asked_);
+  const QRectF place = painter.fontMetrics().boundingRect(
+      words.toRect(), Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, asked_);
   painter.setPen(QPen(colours().line, 1.0));
   painter.setBrush(colours().raised);
   painter.drawRoundedRect(place.adjusted(-12, -6, 12, 6), 6, 6);

@@ -42,7 +42,9 @@ class StageView final : public QWidget {
   /// Hears of the place (px on the stage) that the pointer comes to.
   void on_pointer(std::function<void(const animation::Vector2&)> pointer) { pointer_ = std::move(pointer); }
   /// Hears of files that were dropped there.
-  void on_drop(std::function<void(const std::vector<std::filesystem::path>&)> drop) { drop_ = std::move(drop); }
+  void on_drop(std::function<void(const std::vector<std::filesystem::path>&)> drop) {
+    drop_ = std::move(drop);
+  }
   /// Called when the picture of the present state has been painted.
   void on_painted(std::function<void()> painted) { painted_ = std::move(painted); }
   /// Makes the menu of a cell under the pointer.
@@ -113,7 +115,8 @@ class StageView final : public QWidget {
   std::function<void(const QString&)> question_ = [](const QString&) {};
 };
 
-/// Draws joints, chains, distances, paths and axes over the stage; those of cells that are selected stand out.
+/// Draws joints, chains, distances, paths and axes over the stage; those of cells that are selected stand
+/// out.
 void paint_constraints(QPainter& painter, const CutoutDocument& document,
                        const animation::Affine2& screen_from_stage);
 

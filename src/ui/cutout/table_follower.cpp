@@ -28,7 +28,8 @@ TableFollower::~TableFollower() { stop(); }
 
 base::Result<void> TableFollower::start(const TableSettings& settings) {
   stop();
-  if (settings.source.empty()) return base::fail("Say where the frames come from: camera, a folder, a video.");
+  if (settings.source.empty())
+    return base::fail("Say where the frames come from: camera, a folder, a video.");
   auto known = cutout::read_known_triangles(settings.known);
   if (!known) return tl::unexpected(known.error());
   view_.reset();
@@ -75,7 +76,8 @@ std::vector<std::string> TableFollower::complaints() const {
 
 void TableFollower::set_state(State state) {
   state_ = state;
-  QMetaObject::invokeMethod(&here_, [this] { changed_(); }, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(
+      &here_, [this] { changed_(); }, Qt::QueuedConnection);
 }
 
 void TableFollower::end_with(const std::string& problem) {
@@ -92,7 +94,8 @@ void TableFollower::complain(std::vector<std::string> complaints) {
     if (complaints == complaints_) return;
     complaints_ = std::move(complaints);
   }
-  QMetaObject::invokeMethod(&here_, [this] { changed_(); }, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(
+      &here_, [this] { changed_(); }, Qt::QueuedConnection);
 }
 
 cutout::TableView TableFollower::view_for(const cutout::Frame& frame) const {
@@ -143,7 +146,8 @@ void TableFollower::look_at(const cutout::Frame& frame, std::int64_t arrived) {
   const bool sees_all = sight.seen.size() == known_.triangles.size();
   latest_.publish();
   if (!posted_.exchange(true))
-    QMetaObject::invokeMethod(&here_, [this] { take_sight(); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        &here_, [this] { take_sight(); }, Qt::QueuedConnection);
   if (frame.time < next_judgement_) return;
   next_judgement_ = frame.time + kJudgeEvery;
   // A frame in which all is found is good enough.

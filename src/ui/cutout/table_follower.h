@@ -17,20 +17,20 @@ namespace icome::ui {
 
 /// The table that is watched: where frames come from, what lies on it, and how the camera sees it.
 struct TableSettings {
-  std::string source;             // an address as cutout::open_source() takes it
-  std::filesystem::path known;    // the list of triangles
-  std::filesystem::path view;     // what a calibration has found; empty: the frame's corners are the table's
-  double width = 0, height = 0;   // mm, of the table, without a view
-  double rate = 0;                // frames/s; 0: as they come
+  std::string source;            // an address as cutout::open_source() takes it
+  std::filesystem::path known;   // the list of triangles
+  std::filesystem::path view;    // what a calibration has found; empty: the frame's corners are the table's
+  double width = 0, height = 0;  // mm, of the table, without a view
+  double rate = 0;               // frames/s; 0: as they come
 };
 
 /// What was seen in a frame.
 struct TableSight {
   std::vector<cutout::Sighting> seen;
-  double time = 0;                // s, of the source
-  std::int64_t arrived = 0;       // ns on the steady clock: when the frame was there
-  std::uint64_t number = 0;       // of frames so far
-  std::uint64_t dropped = 0;      // frames that came too fast
+  double time = 0;                           // s, of the source
+  std::int64_t arrived = 0;                  // ns on the steady clock: when the frame was there
+  std::uint64_t number = 0;                  // of frames so far
+  std::uint64_t dropped = 0;                 // frames that came too fast
   double table_width = 0, table_height = 0;  // mm
 };
 

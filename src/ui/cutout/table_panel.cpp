@@ -25,7 +25,7 @@ namespace {
 
 using animation::MappingMode;
 
-constexpr double kScreenBudget = 0.015;      // s from a frame of the table to the screen
+constexpr double kScreenBudget = 0.015;            // s from a frame of the table to the screen
 constexpr std::int64_t kWordsEvery = 250'000'000;  // ns between renewals of words that change with each frame
 constexpr double kLargestTable = 10.0;             // m
 constexpr const char* kModeNames[] = {"nothing", "absolute", "relative", "nearest"};
@@ -52,11 +52,13 @@ TablePanel::TablePanel(CutoutDocument& document, QSettings& settings, QWidget* p
       triangles_(new PanelSection("Triangles", this)) {
   setObjectName("table");
   source_ = add_text("table.source", "Source of frames", "camera, a folder, a video, rtsp://\u2026");
-  section_->add_row("Source", "A camera (camera, camera:2, /dev/video2), a stream, a folder of pictures or a video",
+  section_->add_row("Source",
+                    "A camera (camera, camera:2, /dev/video2), a stream, a folder of pictures or a video",
                     {source_});
   known_ = add_text("table.known", "List of known triangles", "known.toml");
-  section_->add_row("Triangles", "The list of known triangles, as `icome track` has it",
-                    {with_chooser(known_, "List of Known Triangles", "Lists of triangles (*.toml);;All files (*)")});
+  section_->add_row(
+      "Triangles", "The list of known triangles, as `icome track` has it",
+      {with_chooser(known_, "List of Known Triangles", "Lists of triangles (*.toml);;All files (*)")});
   view_ = add_text("table.view", "View of the camera", "none: the frame is the table");
   section_->add_row("View", "What `icome track --calibrate` has found",
                     {with_chooser(view_, "View of the Camera", "Views (*.toml);;All files (*)")});
@@ -74,8 +76,9 @@ TablePanel::TablePanel(CutoutDocument& document, QSettings& settings, QWidget* p
   steady_ = new QCheckBox("steady hands", triangles_->body());
   steady_->setObjectName("table.steady");
   steady_->setToolTip("Takes the trembling out of what triangles do, without a lag at speed");
-  connect(steady_, &QCheckBox::clicked, this,
-          [this](bool on) { document_.perform(cutout_command("steady", {{"on", on}})); });
+  connect(steady_, &QCheckBox::clicked, this, [this](bool on) {
+    document_.perform(cutout_command("steady", {{"on", on}}));
+  });
   triangles_->add_wide(steady_);
   table_ = new QWidget(triangles_->body());
   rows_ = new QGridLayout(table_);
@@ -145,7 +148,8 @@ QuantityField* TablePanel::add_size(const char* name, const QString& accessible)
   field->on_refusal([this](const QString& why) { section_->note().keep(why); });
   const bool is_width = std::string(name) == "table.width";
   field->on_commit([=, this](std::optional<double> value, bool) -> base::Result<void> {
-    if (!value || *value <= 0.0 || *value > kLargestTable) return base::fail("A length of some hundred mm is needed.");
+    if (!value || *value <= 0.0 || *value > kLargestTable)
+      return base::fail("A length of some hundred mm is needed.");
     (is_width ? table_width_ : table_height_) = 1000.0 * *value;
     field->show_value(value);
     keep_settings();
@@ -171,7 +175,8 @@ void TablePanel::keep_settings() {
 }
 
 bool TablePanel::is_running() const {
-  return follower_.state() == TableFollower::State::Opening || follower_.state() == TableFollower::State::Running;
+  return follower_.state() == TableFollower::State::Opening ||
+         follower_.state() == TableFollower::State::Running;
 }
 
 void TablePanel::start() {
@@ -221,8 +226,9 @@ void TablePanel::painted() {
 void TablePanel::show_state() {
   const bool running = is_running();
   start_->setText(running ? "Stop watching" : "Watch the table");
-  for (QWidget* it : {static_cast<QWidget*>(source_), static_cast<QWidget*>(known_), static_cast<QWidget*>(view_),
-                      static_cast<QWidget*>(width_), static_cast<QWidget*>(height_)})
+  for (QWidget* it :
+       {static_cast<QWidget*>(source_), static_cast<QWidget*>(known_), static_cast<QWidget*>(view_),
+        static_cast<QWidget*>(width_), static_cast<QWidget*>(height_)})
     it->setEnabled(!running);
   const std::string problem = follower_.problem();
   if (follower_.state() == TableFollower::State::Ended) {
@@ -252,7 +258,8 @@ void TablePanel::show_status() {
       for (const cutout::Sighting& sighting : last_.seen)
         ids << one_line(follower_.known().triangles[sighting.triangle].id);
       if (!ids.isEmpty()) words << shortened(ids.join(", "), 80) + ".";
-      if (last_.dropped > 0) words << QString("%L1 frames came too fast and were left out.").arg(last_.dropped);
+      if (last_.dropped > 0)
+        words << QString("%L1 frames came too fast and were left out.").arg(last_.dropped);
       for (const std::string& complaint : follower_.complaints()) words << QString::fromStdString(complaint);
       const realtime::LoopSummary summary = delays_.summary();
       if (summary.ticks > 0)
@@ -314,7 +321,8 @@ void TablePanel::add_mapping_row(const std::string& triangle) {
   cell->setObjectName("table.cell." + name);
   cell->setAccessibleName("Cell that " + name + " moves");
   for (const animation::Cell* it : cells_from_front(document_.project()))
-    cell->addItem(it->id == animation::kCamera ? QString("Camera") : one_line(it->name), QString::fromStdString(it->name));
+    cell->addItem(it->id == animation::kCamera ? QString("Camera") : one_line(it->name),
+                  QString::fromStdString(it->name));
   const animation::Cell* const moved = mapping ? document_.project().find(mapping->cell) : nullptr;
   cell->setCurrentIndex(moved ? cell->findData(QString::fromStdString(moved->name)) : -1);
   cell->setEnabled(!mapping || mapping->mode != MappingMode::Nearest);
@@ -333,7 +341,8 @@ void TablePanel::add_mapping_row(const std::string& triangle) {
 
 void TablePanel::map(const std::string& triangle, int mode, const std::string& cell) {
   if (mode == 0) {
-    if (mapping_of(document_.project(), triangle)) document_.perform(cutout_command("unmap", {{"triangle", triangle}}));
+    if (mapping_of(document_.project(), triangle))
+      document_.perform(cutout_command("unmap", {{"triangle", triangle}}));
     return;
   }
   interaction::Value::Fields fields = {{"triangle", triangle}, {"mode", kModeNames[mode]}};

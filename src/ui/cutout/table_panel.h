@@ -20,8 +20,8 @@ class QPushButton;
 
 namespace icome::ui {
 
-/// The table with triangles that a camera watches: where it is seen from, which triangle moves which cell, and
-/// what is seen or wrong, in words. Document and settings outlive it.
+/// The table with triangles that a camera watches: where it is seen from, which triangle moves which cell,
+/// and what is seen or wrong, in words. Document and settings outlive it.
 class TablePanel final : public QWidget {
  public:
   TablePanel(CutoutDocument& document, QSettings& settings, QWidget* parent);

@@ -27,7 +27,8 @@ class RowMaker {
   std::vector<TimeRow> make() {
     add({.kind = TimeRow::Kind::Marks, .name = "Marks"}, kRowHeight);
     if (project_.sound)
-      add({.kind = TimeRow::Kind::Sound, .name = one_line(project_.sound->file).section('/', -1)}, kSoundHeight);
+      add({.kind = TimeRow::Kind::Sound, .name = one_line(project_.sound->file).section('/', -1)},
+          kSoundHeight);
     for (auto layer = project_.layers.rbegin(); layer != project_.layers.rend(); ++layer) {
       add({.kind = TimeRow::Kind::Layer, .layer = layer->id, .name = one_line(layer->name)}, kRowHeight);
       if (folds_.folded.contains(layer->id)) continue;
@@ -105,7 +106,9 @@ std::vector<TimeRow> time_rows(const Project& project, const TimeFolds& folds) {
   return RowMaker(project, folds).make();
 }
 
-int height_of(const std::vector<TimeRow>& rows) { return rows.empty() ? 0 : rows.back().top + rows.back().height; }
+int height_of(const std::vector<TimeRow>& rows) {
+  return rows.empty() ? 0 : rows.back().top + rows.back().height;
+}
 
 const TimeRow* row_at(const std::vector<TimeRow>& rows, int y) {
   const auto found = std::ranges::find_if(rows, [y](const TimeRow& row) { return row.contains(y); });
@@ -115,8 +118,9 @@ const TimeRow* row_at(const std::vector<TimeRow>& rows, int y) {
 std::map<int, KeyPlaces> keys_of(const Project& project, const TimeRow& row, int from, int to) {
   std::map<int, KeyPlaces> keys;
   each_track(project, row, [&](CellId cell, Channel channel, const animation::Track& track) {
-    const auto first = std::lower_bound(track.begin(), track.end(), from,
-                                        [](const animation::Key& key, int frame) { return key.frame < frame; });
+    const auto first =
+        std::lower_bound(track.begin(), track.end(), from,
+                         [](const animation::Key& key, int frame) { return key.frame < frame; });
     for (auto key = first; key != track.end() && key->frame <= to; ++key)
       keys[key->frame].insert({cell, channel, key->frame});
   });
@@ -128,7 +132,8 @@ std::optional<std::pair<int, int>> span_of_keys(const Project& project, const Ti
   each_track(project, row, [&](CellId, Channel, const animation::Track& track) {
     if (track.empty()) return;
     const int first = track.front().frame, last = track.back().frame;
-    span = span ? std::pair(std::min(span->first, first), std::max(span->second, last)) : std::pair(first, last);
+    span =
+        span ? std::pair(std::min(span->first, first), std::max(span->second, last)) : std::pair(first, last);
   });
   return span;
 }
@@ -177,8 +182,9 @@ std::pair<float, float> SoundShape::within(double from, double to) const {
   const auto end = std::min(double(least.size()), std::max(begin + 1.0, std::ceil(to * rate)));
   if (!(begin < end)) return {0.0F, 0.0F};
   const auto first = std::size_t(begin), last = std::size_t(end);
-  return {*std::min_element(least.begin() + std::ptrdiff_t(first), least.begin() + std::ptrdiff_t(last)),
-          *std::max_element(greatest.begin() + std::ptrdiff_t(first), greatest.begin() + std::ptrdiff_t(last))};
+  return {
+      *std::min_element(least.begin() + std::ptrdiff_t(first), least.begin() + std::ptrdiff_t(last)),
+      *std::max_element(greatest.begin() + std::ptrdiff_t(first), greatest.begin() + std::ptrdiff_t(last))};
 }
 
 }  // namespace icome::ui

@@ -17,13 +17,14 @@ constexpr double kNames = 180.0;  // pixels for the names of rows
 constexpr double kRuler = 30.0;   // pixels
 constexpr double kKeyRadius = 5.0;
 constexpr double kKeyReach = 6.0;
-constexpr double kFoldMark = 16.0;       // pixels for the mark that folds
+constexpr double kFoldMark = 16.0;        // pixels for the mark that folds
 constexpr double kTimelineWheel = 1.002;  // for an eighth of a degree
-constexpr int kEndRoom = 60;             // pixels behind the last frame
+constexpr int kEndRoom = 60;              // pixels behind the last frame
 
 }  // namespace
 
-Timeline::Timeline(CutoutDocument& document, QWidget* parent) : QAbstractScrollArea(parent), document_(document) {
+Timeline::Timeline(CutoutDocument& document, QWidget* parent)
+    : QAbstractScrollArea(parent), document_(document) {
   setObjectName("timeline");
   setAccessibleName("Timeline");
   setAccessibleDescription("Keys of all cells over time. Left and Right go from frame to frame.");
@@ -198,7 +199,8 @@ void Timeline::paint_row(QPainter& painter, const TimeRow& row) {
   painter.setPen(theme.grid);
   painter.drawLine(place.bottomLeft(), place.bottomRight());
   painter.save();
-  painter.setClipRect(place.adjusted(kNames, 0, 0, 0).intersected(QRectF(viewport()->rect()).adjusted(0, kRuler, 0, 0)));
+  painter.setClipRect(
+      place.adjusted(kNames, 0, 0, 0).intersected(QRectF(viewport()->rect()).adjusted(0, kRuler, 0, 0)));
   const int second = std::max(1, int(std::lround(document_.project().stage.rate)));
   painter.setPen(theme.grid);
   const int first = std::max(0, scale_.frame_at(0.0)) / second * second;
@@ -244,7 +246,7 @@ void Timeline::paint_name(QPainter& painter, const TimeRow& row, const QRectF& p
   if (row.kind == TimeRow::Kind::Channel) indent += 11.0 * kGrid;
   if (folds) {
     const bool is_open = row.kind == TimeRow::Kind::Layer ? !folds_.folded.contains(row.layer)
-                                                         : folds_.open.contains(row.cell);
+                                                          : folds_.open.contains(row.cell);
     const QPointF middle(indent + 0.35 * kFoldMark, place.center().y());
     QPolygonF mark;
     if (is_open)
@@ -282,7 +284,8 @@ void Timeline::paint_marks(QPainter& painter, const QRectF& place) {
         i + 1 < marks.size() ? kNames + scale_.left_of(marks[i + 1].frame) - 2.0 : place.right();
     QColor wash = colours().link_text;
     wash.setAlphaF(0.16F);
-    const double width = std::min(end - x, painter.fontMetrics().horizontalAdvance(one_line(marks[i].text)) + 10.0);
+    const double width =
+        std::min(end - x, painter.fontMetrics().horizontalAdvance(one_line(marks[i].text)) + 10.0);
     const QRectF flag(x, place.top() + 3.0, std::max(3.0, width), place.height() - 6.0);
     painter.setPen(Qt::NoPen);
     painter.setBrush(wash);
@@ -323,7 +326,8 @@ void Timeline::paint_sound(QPainter& painter, const QRectF& place) {
 void Timeline::paint_keys(QPainter& painter, const TimeRow& row, const QRectF& /*place*/) {
   const ThemeColours& theme = colours();
   const bool is_small = row.kind != TimeRow::Kind::Cell;
-  const double radius = std::min(is_small ? 0.8 * kKeyRadius : kKeyRadius, std::max(2.0, 0.6 * scale_.frame_width));
+  const double radius =
+      std::min(is_small ? 0.8 * kKeyRadius : kKeyRadius, std::max(2.0, 0.6 * scale_.frame_width));
   const auto span = span_of_keys(document_.project(), row);
   if (!span) return;
   if (row.kind != TimeRow::Kind::Layer && span->first < span->second) {
@@ -336,9 +340,10 @@ void Timeline::paint_keys(QPainter& painter, const TimeRow& row, const QRectF& /
   const bool drags = contact_ == Contact::Keys && moved_ != 0;
   for (const auto& [frame, places] : keys) {
     const KeyPlace& first = *places.begin();
-    const animation::Key* const key = animation::key_at(
-        document_.project().find(first.cell)->tracks[std::size_t(first.channel)], frame);
-    const bool chosen = std::ranges::any_of(places, [this](const KeyPlace& it) { return document_.keys().contains(it); });
+    const animation::Key* const key =
+        animation::key_at(document_.project().find(first.cell)->tracks[std::size_t(first.channel)], frame);
+    const bool chosen =
+        std::ranges::any_of(places, [this](const KeyPlace& it) { return document_.keys().contains(it); });
     QColor fill = chosen ? theme.accent : is_small ? theme.faint : theme.text;
     const animation::Ease ease = key != nullptr ? key->ease : animation::Ease::Straight;
     if (chosen && drags) {
@@ -362,8 +367,11 @@ void Timeline::paint_frame_line(QPainter& painter) {
   painter.fillRect(QRectF(left, kRuler, scale_.frame_width, viewport()->height()), wash);
   painter.setPen(QPen(colours().accent, 1.2));
   painter.drawLine(QPointF(x, kRuler - 8.0), QPointF(x, viewport()->height()));
-  const QPointF head[] = {{x - 5.5, kRuler - 12.0}, {x + 5.5, kRuler - 12.0}, {x + 5.5, kRuler - 6.0},
-                          {x, kRuler - 0.5},        {x - 5.5, kRuler - 6.0}};
+  const QPointF head[] = {{x - 5.5, kRuler - 12.0},
+                          {x + 5.5, kRuler - 12.0},
+                          {x + 5.5, kRuler - 6.0},
+                          {x, kRuler - 0.5},
+                          {x - 5.5, kRuler - 6.0}};
   painter.setBrush(colours().accent);
   painter.drawPolygon(head, 5);
   painter.setClipping(false);
@@ -409,7 +417,8 @@ void Timeline::press_name(const TimeRow& row, QPointF at, bool more) {
     if (std::ranges::find(cells, cell) == cells.end()) cells.push_back(cell);
   };
   if (row.cell) add(row.cell);
-  if (const animation::Layer* const layer = document_.project().find(row.layer); layer != nullptr && !row.cell)
+  if (const animation::Layer* const layer = document_.project().find(row.layer);
+      layer != nullptr && !row.cell)
     for (const animation::Cell& cell : layer->cells) add(cell.id);
   document_.select(std::move(cells));
 }
@@ -423,7 +432,8 @@ void Timeline::press_rows(QPointF at, bool more) {
   }
   contact_ = Contact::Keys;
   moved_ = 0;
-  const bool chosen = std::ranges::all_of(under, [this](const KeyPlace& it) { return document_.keys().contains(it); });
+  const bool chosen =
+      std::ranges::all_of(under, [this](const KeyPlace& it) { return document_.keys().contains(it); });
   KeyPlaces keys = document_.keys();
   if (more && chosen) {
     for (const KeyPlace& it : under) keys.erase(it);
@@ -442,7 +452,8 @@ void Timeline::mouseMoveEvent(QMouseEvent* event) {
     case Contact::Scrub:
       return go_under(std::max(last_.x(), kNames));
     case Contact::Keys:
-      moved_ = possible_move(document_.keys(), int(std::lround((last_.x() - pressed_.x()) / scale_.frame_width)));
+      moved_ =
+          possible_move(document_.keys(), int(std::lround((last_.x() - pressed_.x()) / scale_.frame_width)));
       break;
     case Contact::Shift:
       horizontalScrollBar()->setValue(int(std::lround(scale_.scroll - by.x())));
@@ -499,7 +510,8 @@ void Timeline::mouseDoubleClickEvent(QMouseEvent* event) {
 
 void Timeline::wheelEvent(QWheelEvent* event) {
   if (!(event->modifiers() & Qt::ControlModifier)) return QAbstractScrollArea::wheelEvent(event);
-  scale_.zoom(std::max(0.0, event->position().x() - kNames), std::pow(kTimelineWheel, event->angleDelta().y()));
+  scale_.zoom(std::max(0.0, event->position().x() - kNames),
+              std::pow(kTimelineWheel, event->angleDelta().y()));
   set_bars();
   viewport()->update();
   event->accept();
@@ -514,7 +526,8 @@ void Timeline::keyPressEvent(QKeyEvent* event) {
 
 void Timeline::contextMenuEvent(QContextMenuEvent* event) {
   const KeyPlaces under = keys_under(event->pos());
-  const bool chosen = std::ranges::all_of(under, [this](const KeyPlace& it) { return document_.keys().contains(it); });
+  const bool chosen =
+      std::ranges::all_of(under, [this](const KeyPlace& it) { return document_.keys().contains(it); });
   if (!under.empty() && !chosen) document_.select_keys(under);
   menu_(event->globalPos());
 }

@@ -69,8 +69,8 @@ class Transport {
   int count_in_ = 4;
   int beats_ = 0;
   int due_ = 0, shown_ = 0, last_due_ = 0;
-  double started_ = 0.0;           // by the clock: when the first frame is due
-  double latest_ = 0.0;            // since then, s
+  double started_ = 0.0;  // by the clock: when the first frame is due
+  double latest_ = 0.0;   // since then, s
   bool follows_sound_ = false;
   bool told_no_output_ = false;
   std::shared_ptr<const sound::Samples> samples_;

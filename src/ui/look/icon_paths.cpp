@@ -541,7 +541,8 @@ IconPaths record_dot() {
 
 IconPaths speaker() {
   IconPaths it;
-  const std::initializer_list<QPointF> horn{{2.5, 7.5}, {5.5, 7.5}, {9.5, 4.0}, {9.5, 16.0}, {5.5, 12.5}, {2.5, 12.5}};
+  const std::initializer_list<QPointF> horn{{2.5, 7.5},  {5.5, 7.5},  {9.5, 4.0},
+                                            {9.5, 16.0}, {5.5, 12.5}, {2.5, 12.5}};
   add_line(it.ink, horn, true);
   add_line(it.wash, horn, true);
   add_arc(it.accent, {10.0, 10.0}, 3.5, 3.5, -45.0, 90.0);

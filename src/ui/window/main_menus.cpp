@@ -9,9 +9,9 @@
 
 #include "ui/actions/actions.h"
 #include "ui/actions/object_menu.h"
+#include "ui/cutout/run_cutout.h"
 #include "ui/look/icons.h"
 #include "ui/panels/object_look.h"
-#include "ui/cutout/run_cutout.h"
 #include "ui/sketch/sketch_window.h"
 #include "ui/window/about_box.h"
 #include "ui/window/command_palette.h"

@@ -48,7 +48,8 @@ class CutoutStage : public ::testing::Test {
     return file(name).string();
   }
   /// A cell of one picture, in the middle of the stage; its id.
-  CellId add_cell(const std::string& name, int width = 100, int height = 60, const QColor& colour = Qt::darkCyan) {
+  CellId add_cell(const std::string& name, int width = 100, int height = 60,
+                  const QColor& colour = Qt::darkCyan) {
     const std::string picture = paper(name + ".png", width, height, colour);
     EXPECT_TRUE(document().perform(
         cutout_command("add-cell", {{"pictures", command_texts({picture})}, {"name", name}})));
@@ -79,7 +80,8 @@ class CutoutStage : public ::testing::Test {
     send_mouse(to, QEvent::MouseMove, until, modifiers);
     send_mouse(to, QEvent::MouseButtonRelease, until, modifiers);
   }
-  void drag(const animation::Vector2& from, const animation::Vector2& until, Qt::KeyboardModifiers modifiers = {}) {
+  void drag(const animation::Vector2& from, const animation::Vector2& until,
+            Qt::KeyboardModifiers modifiers = {}) {
     drag_on(stage(), on_screen(from), on_screen(until), modifiers);
   }
   void click(const animation::Vector2& at, Qt::KeyboardModifiers modifiers = {}) {

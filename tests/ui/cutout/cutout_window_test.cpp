@@ -281,7 +281,8 @@ TEST_F(CutoutWindowTest, ValuesOfTheCellSetKeysAtThePresentFrame) {
   angle->setText("90");
   emit angle->textEdited("90");
   key(*angle, Qt::Key_Return);
-  const animation::Key* const key_there = animation::key_at(cell("boat").tracks[std::size_t(Channel::Angle)], 12);
+  const animation::Key* const key_there =
+      animation::key_at(cell("boat").tracks[std::size_t(Channel::Angle)], 12);
   ASSERT_TRUE(key_there);
   EXPECT_NEAR(key_there->value, M_PI / 2, 1e-12);
 }
@@ -312,7 +313,8 @@ TEST_F(CutoutWindowTest, EveryActionIsInAMenuAndNoShortcutIsThereTwice) {
       EXPECT_FALSE(it->objectName().isEmpty()) << it->text().toStdString();
       for (const QKeySequence& keys : it->shortcuts()) {
         const QString text = keys.toString();
-        EXPECT_FALSE(shortcuts.contains(text)) << text.toStdString() << " of " << it->objectName().toStdString();
+        EXPECT_FALSE(shortcuts.contains(text))
+            << text.toStdString() << " of " << it->objectName().toStdString();
         shortcuts[text] = it->objectName();
       }
     }
@@ -326,7 +328,8 @@ TEST_F(CutoutWindowTest, EveryActionCanBeUsedAtAnyTime) {
   add_cell("sea", 400, 100, Qt::blue);
   const std::set<QString> elsewhere = {"file.new", "file.close"};
   for (QAction* it : window_->findChildren<QAction*>()) {
-    if (it->objectName().isEmpty() || !it->objectName().contains('.') || elsewhere.contains(it->objectName())) continue;
+    if (it->objectName().isEmpty() || !it->objectName().contains('.') || elsewhere.contains(it->objectName()))
+      continue;
     document().select({cell("boat").id});
     it->trigger();
     QCoreApplication::processEvents();

@@ -30,10 +30,14 @@ class TableTest : public CutoutStage {
     return options;
   }
   TableSettings settings() const {
-    return {.source = file("frames").string(), .known = file("known.toml"), .view = file("view.toml"), .rate = 30};
+    return {.source = file("frames").string(),
+            .known = file("known.toml"),
+            .view = file("view.toml"),
+            .rate = 30};
   }
   void fill_panel() {
-    for (const auto& [name, value] : {std::pair("table.source", file("frames")), {"table.known", file("known.toml")},
+    for (const auto& [name, value] : {std::pair("table.source", file("frames")),
+                                      {"table.known", file("known.toml")},
                                       {"table.view", file("view.toml")}})
       window_->findChild<QLineEdit*>(name)->setText(QString::fromStdString(value.string()));
   }
@@ -84,7 +88,8 @@ TEST_F(TableTest, StoppingTakesNoTime) {
   EXPECT_EQ(follower.state(), TableFollower::State::Off);
 }
 
-/// The cell follows the triangle, and what was recorded is there although the frames end before the recording.
+/// The cell follows the triangle, and what was recorded is there although the frames end before the
+/// recording.
 TEST_F(TableTest, ATriangleMovesACellAndTheRecordingOutlivesTheFrames) {
   add_cell("boat");
   ASSERT_TRUE(document().perform(

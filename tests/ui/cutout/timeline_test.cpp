@@ -114,8 +114,7 @@ TEST_F(TimelineTest, AClickOnTheMarkBeforeACellShowsItsChannels) {
 
 TEST_F(TimelineTest, TheSheetExposesPicturesByNumber) {
   const std::string other = paper("other.png", 100, 60, Qt::green);
-  document().perform(
-      cutout_command("add-picture", {{"cell", "boat"}, {"pictures", command_texts({other})}}));
+  document().perform(cutout_command("add-picture", {{"cell", "boat"}, {"pictures", command_texts({other})}}));
   ExposureSheet& sheet = window_->sheet();
   action("view.sheet")->trigger();
   QCoreApplication::processEvents();

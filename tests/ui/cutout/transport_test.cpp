@@ -174,7 +174,8 @@ TEST_F(TransportTest, ThePictureFollowsWhatIsHeard) {
   has_output_ = true;
   sound::Samples samples{.rate = 8000, .channels = 1, .values = {}};
   for (int i = 0; i < 16000; ++i) samples.values.push_back(float(std::sin(0.05 * i)));
-  ASSERT_TRUE(document().perform(animation::ProjectEdit{animation::ChangeSound{animation::Sound{.file = "a.wav"}}}));
+  ASSERT_TRUE(
+      document().perform(animation::ProjectEdit{animation::ChangeSound{animation::Sound{.file = "a.wav"}}}));
   transport().use_samples(std::make_shared<const sound::Samples>(samples));
   transport().play();
   // The window is busy for a while: pictures are left out, and the sound goes on.
@@ -194,8 +195,8 @@ TEST_F(TransportTest, AnOutputThatGoesAwayDoesNotStopTheFilm) {
   transport().use_clock([] { return 1e-9 * double(base::steady_nanoseconds()); });
   has_output_ = true;
   document().perform(animation::ProjectEdit{animation::ChangeSound{animation::Sound{.file = "a.wav"}}});
-  transport().use_samples(
-      std::make_shared<const sound::Samples>(sound::Samples{.rate = 8000, .channels = 1, .values = std::vector<float>(80000)}));
+  transport().use_samples(std::make_shared<const sound::Samples>(
+      sound::Samples{.rate = 8000, .channels = 1, .values = std::vector<float>(80000)}));
   transport().play();
   ASSERT_TRUE(until([&] { return document().frame() >= 3; }));
   heard_->is_gone = true;
