@@ -597,7 +597,7 @@ CommandLine parse_command_line(int argc, char** argv) {
     command_line.sketch = std::move(entries.sketch);
   } else if (!entries.track.task.empty()) {
     command_line.track = std::move(entries.track);
-  } else if (!entries.animate.task.empty()) {
+  } else if (entries.animate.is_wanted) {
     command_line.animate = std::move(entries.animate);
   } else if (techniques.parsed()) {
     auto options = understood_techniques(entries);

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "apps/animate/animate_options.h"
 #include "apps/csg/csg_options.h"
 #include "apps/design/design_options.h"
 #include "apps/design/shot_options.h"
@@ -16,7 +17,6 @@
 #include "apps/study/study_options.h"
 #include "apps/techniques/techniques_options.h"
 #include "apps/touch/touch_options.h"
-#include "apps/animate/animate_options.h"
 #include "apps/track/track_options.h"
 
 namespace icome::apps {

@@ -1,6 +1,7 @@
 #include <exception>
 #include <new>
 
+#include "apps/animate/animate_command.h"
 #include "apps/command_line.h"
 #include "apps/csg/csg_command.h"
 #include "apps/design/convert_command.h"
@@ -20,7 +21,6 @@
 #include "apps/techniques/techniques_command.h"
 #include "apps/terminal.h"
 #include "apps/touch/touch_command.h"
-#include "apps/animate/animate_command.h"
 #include "apps/track/track_command.h"
 
 int main(int argc, char** argv) {

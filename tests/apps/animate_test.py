@@ -220,13 +220,13 @@ class Record(unittest.TestCase):
         cls.truth = json.loads((cls.folder / "made" / "truth.json").read_text())
         (cls.folder / "square.svg").write_text(SQUARE)
 
-    def record(self, *commands, more=()):
+    def record(self, *commands, known="made/known.toml", more=()):
         script = self.folder / "edits.jsonl"
         commands = [{"op": "stage", "width": 1280, "height": 960, "rate": 30, "length": 50},
                     {"op": "add-cell", "name": "a", "pictures": "square.svg", "place": [600, 400], "angle": 10},
                     {"op": "add-cell", "name": "b", "pictures": "square.svg", "place": [100, 100]}, *commands]
         script.write_text("".join(json.dumps(command) + "\n" for command in commands))
-        told = json.loads(animate("new", "--apply", script, "--record", "made", "--known", "made/known.toml",
+        told = json.loads(animate("new", "--apply", script, "--record", "made", "--known", known,
                                   "--save", "out.cutout", "--thin", 0, "--json", *more, cwd=self.folder).stdout)
         return told, self.folder / "out.cutout"
 
@@ -282,16 +282,19 @@ class Record(unittest.TestCase):
         known = self.folder / "named.toml"
         text = (self.folder / "made" / "known.toml").read_text()
         known.write_text(re.sub(r'(id = "t1"\n)', r'\1cell = "a"\n', text))
-        _, project = self.record(more=["--known", known])
+        _, project = self.record(known=known)
         self.assertIn("keys", cell_in(project, "a"))
 
     def test_says_what_is_wrong(self):
         script = self.folder / "edits.jsonl"
-        script.write_text('{"op": "add-cell", "name": "a", "pictures": "square.svg"}\n')
-        for arguments, words in [(["--record", "made"], "--known"),
-                                 (["--record", "nowhere", "--known", "made/known.toml"], "nowhere"),
-                                 (["--record", "made", "--known", "made/known.toml"], "no triangle moves a cell"),
-                                 (["--record", "made", "--known", "made/known.toml", "--layer", "x"], "no layer 'x'")]:
+        known = ["--known", "made/known.toml"]
+        cell = '{"op": "add-cell", "name": "a", "pictures": "square.svg"}\n'
+        mapping = '{"op": "map", "triangle": "t1", "cell": "a"}\n'
+        for lines, arguments, words in [(cell, ["--record", "made"], "--known"),
+                                        (cell + mapping, ["--record", "nowhere", *known], "nowhere"),
+                                        (cell, ["--record", "made", *known], "no triangle moves a cell"),
+                                        (cell, ["--record", "made", *known, "--layer", "x"], "no layer 'x'")]:
+            script.write_text(lines)
             done = animate("new", "--apply", script, *arguments, cwd=self.folder, code=1)
             self.assertIn(words, done.stderr)
 

@@ -91,8 +91,8 @@ class AnimateRun {
     if (!read->note.empty()) note(read->note);
     report_.recovered = read->recovered;
     if (read->recovered > 0)
-      note(fmt::format("{}: {} edits that were not saved are taken from its journal.", options_.project.string(),
-                       read->recovered));
+      note(fmt::format("{}: {} edits that were not saved are taken from its journal.",
+                       options_.project.string(), read->recovered));
     return std::move(read->project);
   }
 
@@ -136,7 +136,7 @@ class AnimateRun {
     status_.clear();
     for (const std::string& remark : written->remarks) note(remark);
     const animation::FrameRange frames = range->value_or(animation::FrameRange{0, project.stage.length - 1});
-    report_.written = WrittenFrames{options_.out,    frames.first,    frames.last,
+    report_.written = WrittenFrames{options_.out,   frames.first,    frames.last,
                                     written->width, written->height, written->files.size()};
     return {};
   }
@@ -169,14 +169,15 @@ class AnimateRun {
 }  // namespace
 
 int run_animate(const AnimateOptions& options) {
-  if (options.task == "open") {
-    char name[] = "icome";
-    char* arguments[] = {name, nullptr};
-    return ui::run_cutout_window(1, arguments, {.file = options.project, .theme = options.theme});
-  }
   if (options.help_tools) return list_animation_tools(options);
   if (options.project.empty())
     return animate_failed("name a project: icome animate boat.cutout, or icome animate new");
+  if (options.open) {
+    char name[] = "icome";
+    char* arguments[] = {name, nullptr};
+    const std::filesystem::path file = options.is_new ? std::filesystem::path() : options.project;
+    return ui::run_cutout_window(1, arguments, {.file = file, .theme = options.theme});
+  }
   catch_interrupts();
   return AnimateRun(options).run();
 }

@@ -11,7 +11,8 @@ namespace {
 
 constexpr const char* kAnimateNotes =
     "Examples:\n"
-    "  icome animate open                                the window, with an empty stage\n"
+    "  icome animate new --open                          the window, with an empty stage\n"
+    "  icome animate boat.cutout --open\n"
     "  icome animate boat.cutout                         what is in it, and what is missing\n"
     "  icome animate boat.cutout --out boat.mp4\n"
     "  icome animate boat.cutout --out boat.png --frames 12-12\n"
@@ -21,54 +22,40 @@ constexpr const char* kAnimateNotes =
     "  icome animate --help-tools                        all tools with their parameters\n"
     "  icome animate --help-tools key                    one of them\n"
     "\n"
-    "PROJECT: a .cutout file, or new for an empty stage of 1280 x 720 px, 25 frames a second and 100 frames.\n"
-    "Files that it names (pictures, sound) count from its folder. Frames are counted from 0. Places are px of\n"
-    "the stage, x to the right and y down; angles degrees, counter-clockwise as seen.\n"
+    "PROJECT: a .cutout file, or new for an empty stage of 1280 x 720 px, 25 frames a second and 100\n"
+    "frames. Files that it names (pictures, sound) count from its folder. Frames are counted from 0.\n"
+    "Places are px of the stage, x to the right and y down; angles degrees, counter-clockwise as seen.\n"
     "\n"
-    "OUT: .mp4, .webm, .gif and .apng (by the program ffmpeg), a folder (shots/) or a pattern (shot%04d.png)\n"
-    "of .png or .svg files, or one such picture where one frame is wanted. The same project gives the same\n"
-    "bytes each time.\n"
+    "OUT: .mp4, .webm, .gif and .apng (by the program ffmpeg), a folder (shots/) or a pattern\n"
+    "(shot%04d.png) of .png or .svg files, or one such picture where one frame is wanted. The same\n"
+    "project gives the same bytes each time.\n"
     "\n"
     "edits.jsonl may be:\n"
     "  {\"op\": \"stage\", \"width\": 640, \"height\": 360, \"rate\": 12, \"length\": 24}\n"
     "  {\"op\": \"add-cell\", \"pictures\": \"boat.svg\", \"place\": [100, 200]}\n"
     "  {\"op\": \"key\", \"cell\": \"boat\", \"frame\": 0, \"x\": 100, \"angle\": -4, \"ease\": \"eased\"}\n"
     "  {\"op\": \"key\", \"cell\": \"boat\", \"frame\": 23, \"x\": 540, \"angle\": 6}\n"
-    "Empty lines and those that begin with # are skipped. undo and redo are tools, too. A line that is wrong\n"
-    "ends the run with its number, and nothing is written.\n"
+    "Empty lines and those that begin with # are skipped. undo and redo are tools, too. A line that is\n"
+    "wrong ends the run with its number, and nothing is written.\n"
     "\n"
-    "--record: triangles on a table (icome track --help) move the cells as the project's mapping says, while\n"
-    "the frames of the source are taken down; constraints hold. A list whose triangles name cells (cell =\n"
-    "\"boat\") needs no mapping.\n"
+    "--record: triangles on a table (icome track --help) move the cells as the project's mapping says,\n"
+    "while the frames of the source are taken down; constraints hold. A list whose triangles name cells\n"
+    "(cell = \"boat\") needs no mapping.\n"
     "\n"
-    "JSON: {project, width, height, rate, frames, layers: [{name, visible, locked, cells: [{number, name,\n"
-    "pictures, pivot, keys}]}], constraints: [{number, kind, cells}], triangles: [{id, mode, cell}], sound,\n"
-    "marks, missing: [{picture, message, cells}], recovered (edits that were not saved), operations, errors:\n"
-    "[{line, op, message}], notes, recorded (with --record: {frames, dropped, keys}), saved (null when it was\n"
-    "not), written (with --out: {out, first, last, width, height, files}), hash (equal for equal projects)}.\n"
+    "JSON: {project, width, height, rate, frames, layers: [{name, visible, locked, cells: [{number,\n"
+    "name, pictures, pivot, keys}]}], constraints: [{number, kind, cells}], triangles: [{id, mode,\n"
+    "cell}], sound, marks, missing: [{picture, message, cells}], recovered (edits that were not saved),\n"
+    "operations, errors: [{line, op, message}], notes, recorded (with --record: {frames, dropped,\n"
+    "keys}), saved (null when it was not), written (with --out: {out, first, last, width, height,\n"
+    "files}), hash (equal for equal projects)}.\n"
     "\n"
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
 
-constexpr const char* kAnimateOpenNotes =
-    "Examples:\n"
-    "  icome animate open                           an empty stage\n"
-    "  icome animate open boat.cutout\n"
-    "\n"
-    "F1 lists the keys in the window. It needs no camera: cells are moved by mouse and keys, too.";
-
-void add_animate_open(CLI::App& animate, AnimateOptions& options) {
-  CLI::App& open = *animate.add_subcommand("open", "Animate in a window");
-  open.footer(kAnimateOpenNotes);
-  open.add_option("PROJECT", options.project, "A .cutout file (default: an empty stage)")->type_name("");
-  open.add_option("--theme", options.theme, kThemeHelp)
-      ->type_name("dark|light")
-      ->check(CLI::IsMember({"dark", "light"}));
-  open.callback([&options] { options.task = "open"; });
-}
-
 void add_changes(CLI::App& animate, AnimateOptions& options) {
-  animate.add_option("--apply", options.apply, "Change it by a script of tools, a JSON object a line; - reads "
-                                               "standard input")
+  animate
+      .add_option("--apply", options.apply,
+                  "Change it by a script of tools, a JSON object a line; - reads "
+                  "standard input")
       ->type_name("EDITS.jsonl");
   animate.add_flag("--keep-going", options.keep_going, "Skip lines that are wrong, and go on");
   animate.add_option("--save", options.save, "Write the changed project")->type_name("NEW.cutout");
@@ -76,10 +63,12 @@ void add_changes(CLI::App& animate, AnimateOptions& options) {
 }
 
 void add_recording(CLI::App& animate, AnimateOptions& options) {
-  animate.add_option("--record", options.record, "Let triangles on a table move the cells, from these frames")
+  animate
+      .add_option("--record", options.record, "Let triangles on a table move the cells, from these frames")
       ->type_name("SOURCE");
   animate.add_option("--known", options.known, "The list of triangles")->type_name("K.toml");
-  animate.add_option("--view", options.view, "How the camera sees the table, as icome track --calibrate made it")
+  animate
+      .add_option("--view", options.view, "How the camera sees the table, as icome track --calibrate made it")
       ->type_name("VIEW.toml");
   animate.add_option("--table", options.table, "Size of the table in mm, without --view (default 640x480)")
       ->type_name("WxH")
@@ -90,7 +79,8 @@ void add_recording(CLI::App& animate, AnimateOptions& options) {
   animate.add_option("--from", options.from, "Frame at which the recording begins (default 0)")
       ->type_name("FRAME")
       ->check(number_range(0.0, double(animation::kLongestAnimation - 1)));
-  animate.add_option("--seconds", options.seconds, "End the recording after so long (default: with the source)")
+  animate
+      .add_option("--seconds", options.seconds, "End the recording after so long (default: with the source)")
       ->type_name("S")
       ->check(number_range(0.0, 36'000.0));
   animate
@@ -116,9 +106,12 @@ void add_animate(CLI::App& app, AnimateOptions& options) {
   animate.add_flag("--json", options.json, "Print a JSON document (fields below)");
   add_changes(animate, options);
   add_recording(animate, options);
-  add_animate_open(animate, options);
+  animate.add_flag("--open", options.open, "Open it in a window, which F1 explains");
+  animate.add_option("--theme", options.theme, kThemeHelp)
+      ->type_name("dark|light")
+      ->check(CLI::IsMember({"dark", "light"}));
   animate.callback([&options] {
-    if (options.task.empty()) options.task = "animate";
+    options.is_wanted = true;
     if (options.help_tools && !options.project.empty()) options.tool = options.project.string();
     options.is_new = options.project == "new";
   });

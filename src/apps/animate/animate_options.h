@@ -11,8 +11,9 @@ namespace icome::apps {
 
 /// The options of icome animate.
 struct AnimateOptions {
-  std::string task;  // "animate" or "open"; empty: none was named
+  bool is_wanted = false;  // this command was named
   std::filesystem::path project;
+  bool open = false;  // in a window
   std::string theme;  // of the window
 
   bool is_new = false;  // the project is an empty one

@@ -95,8 +95,9 @@ void add_run(const AnimateOptions& options, const AnimateReport& report, Json& j
                         {"keys", report.recorded->keys}};
   json["saved"] = report.saved ? Json(options.save.string()) : Json(nullptr);
   if (const auto& written = report.written)
-    json["written"] = {{"out", written->out.string()}, {"first", written->first},   {"last", written->last},
-                       {"width", written->width},      {"height", written->height}, {"files", written->files}};
+    json["written"] = {{"out", written->out.string()}, {"first", written->first},
+                       {"last", written->last},        {"width", written->width},
+                       {"height", written->height},    {"files", written->files}};
 }
 
 std::string text_of_content(const Project& project) {
@@ -110,7 +111,8 @@ std::string text_of_content(const Project& project) {
   }
   if (const std::size_t keys = keys_of(project.camera); keys > 0)
     text += fmt::format("  The camera has {}.\n", how_many(keys, "key"));
-  if (project.sound) text += fmt::format("  Sound: {}, from {} s\n", project.sound->file, project.sound->start);
+  if (project.sound)
+    text += fmt::format("  Sound: {}, from {} s\n", project.sound->file, project.sound->start);
   for (const animation::Constraint& constraint : project.constraints)
     text += fmt::format("  Constraint {}: {} of {}\n", constraint.id.value, kind_of_constraint(constraint),
                         fmt::join(names_in(project, constraint), ", "));
@@ -151,18 +153,19 @@ std::string animate_json(const AnimateOptions& options, const Project& project, 
 
 std::string animate_text(const AnimateOptions& options, const Project& project, const AnimateReport& report) {
   const animation::Stage& stage = project.stage;
-  std::string text = fmt::format("{}: {} x {} px, {} at {} a second ({:.1f} s), {} on {}\n",
-                                 options.is_new ? "New animation" : options.project.string(), stage.width,
-                                 stage.height, how_many(std::size_t(stage.length), "frame"), stage.rate,
-                                 stage.length / stage.rate, how_many(project.cell_count(), "cell"),
-                                 how_many(project.layers.size(), "layer"));
+  std::string text =
+      fmt::format("{}: {} x {} px, {} at {} a second ({:.1f} s), {} on {}\n",
+                  options.is_new ? "New animation" : options.project.string(), stage.width, stage.height,
+                  how_many(std::size_t(stage.length), "frame"), stage.rate, stage.length / stage.rate,
+                  how_many(project.cell_count(), "cell"), how_many(project.layers.size(), "layer"));
   if (!report.written && !report.saved) text += text_of_content(project);
-  if (!options.apply.empty()) text += fmt::format("  {} done\n", how_many(report.outcome.operations, "operation"));
+  if (!options.apply.empty())
+    text += fmt::format("  {} done\n", how_many(report.outcome.operations, "operation"));
   for (const EditNote& note : report.outcome.notes)
     text += fmt::format("  {}:{}: {}: {}\n", options.apply.string(), note.line, note.operation, note.text);
   if (const auto& recorded = report.recorded)
-    text += fmt::format("  Recorded {} ({} dropped): {}\n", how_many(recorded->frames, "frame"), recorded->dropped,
-                        how_many(recorded->keys, "key"));
+    text += fmt::format("  Recorded {} ({} dropped): {}\n", how_many(recorded->frames, "frame"),
+                        recorded->dropped, how_many(recorded->keys, "key"));
   if (report.saved) text += fmt::format("  Saved as {}\n", options.save.string());
   if (const auto& written = report.written)
     text += fmt::format("  Frames {} to {} as {} ({} x {} px)\n", written->first, written->last,

@@ -34,9 +34,8 @@ TrackOptions table_options(const AnimateOptions& options) {
 /// The project with mappings for triangles whose cell the known list names, where it has none of its own.
 base::Result<Project> with_named_cells(Project project, const cutout::KnownTriangles& known) {
   for (const cutout::KnownTriangle& triangle : known.triangles) {
-    const bool is_mapped = std::ranges::any_of(project.mappings, [&](const animation::Mapping& mapping) {
-      return mapping.triangle == triangle.id;
-    });
+    const bool is_mapped = std::ranges::any_of(
+        project.mappings, [&](const animation::Mapping& mapping) { return mapping.triangle == triangle.id; });
     if (is_mapped || triangle.cell.empty()) continue;
     const auto cell = animation::cell_named(project, triangle.cell, false);
     if (!cell)
@@ -44,8 +43,9 @@ base::Result<Project> with_named_cells(Project project, const cutout::KnownTrian
     project.mappings.push_back({triangle.id, animation::MappingMode::Absolute, (*cell)->id});
   }
   if (project.mappings.empty())
-    return base::fail("no triangle moves a cell: map them in the project (the tool map), or name cells in the "
-                      "known list (cell = \"boat\")");
+    return base::fail(
+        "no triangle moves a cell: map them in the project (the tool map), or name cells in the "
+        "known list (cell = \"boat\")");
   return project;
 }
 
@@ -123,8 +123,8 @@ class HandRecording {
   void move(const std::vector<cutout::Sighting>& seen, double time, int at) {
     std::vector<animation::TriangleOnTable> triangles;
     for (const cutout::Sighting& sighting : seen)
-      triangles.push_back({known_.triangles[sighting.triangle].id, sighting.pose.centroid, sighting.pose.angle,
-                           sighting.confidence});
+      triangles.push_back({known_.triangles[sighting.triangle].id, sighting.pose.centroid,
+                           sighting.pose.angle, sighting.confidence});
     // What no hand has touched goes on as its keys say; what one let go stays.
     CellStates now = animation::states_at(project_, at);
     for (const auto& [cell, state] : touched_) now[cell] = state;

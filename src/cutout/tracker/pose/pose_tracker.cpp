@@ -15,17 +15,17 @@ constexpr double kLongestGlide = 0.05;    // s that a hidden triangle is still r
 constexpr double kStillMoved = 1.5;       // pixels that it may have moved since
 constexpr double kTrackedSupport = 0.12;  // share of the outline by which a triangle is followed
 constexpr double kTrackedAgainst = 0.25;
-constexpr double kTrackedBeyond = 0.4;  // blue beyond that no other triangle explains
-constexpr double kMovedSupport = 0.22;  // share by which it is believed where it was not foreseen
-constexpr double kForeseenPlace = 3;    // pixels
-constexpr double kMuchNearer = 0.5;     // of the way from where it was foreseen
-constexpr double kForeseenTurn = 0.05;  // rad
-constexpr double kSharedOutline = 0.6;  // of what supports a triangle, that another one's edges explain too
+constexpr double kTrackedBeyond = 0.4;   // blue beyond that no other triangle explains
+constexpr double kMovedSupport = 0.22;   // share by which it is believed where it was not foreseen
+constexpr double kForeseenPlace = 3;     // pixels
+constexpr double kMuchNearer = 0.5;      // of the way from where it was foreseen
+constexpr double kForeseenTurn = 0.05;   // rad
+constexpr double kSharedOutline = 0.6;   // of what supports a triangle, that another one's edges explain too
 constexpr double kClearlyBetter = 0.75;  // of the better score, below which the other one is let go
 constexpr double kOnOutline = 1.5;       // pixels from an edge
-constexpr double kSureSupport = 0.3;    // share by which a new triangle of three edges is believed at once
-constexpr double kSureRms = 0.35;       // pixels
-constexpr double kLeastWindow = 6;      // pixels about a prediction
+constexpr double kSureSupport = 0.3;     // share by which a new triangle of three edges is believed at once
+constexpr double kSureRms = 0.35;        // pixels
+constexpr double kLeastWindow = 6;       // pixels about a prediction
 constexpr double kWidestWindow = 20;
 constexpr double kLongestStep = 0.5;   // s between frames over which motion is foreseen
 constexpr double kRestless = 3;        // deviations from what noise explains, from which a triangle moves
@@ -230,8 +230,8 @@ double PoseTracker::share_on(std::size_t one, std::size_t other) const {
   return supported_[one].empty() ? 0.0 : double(shared) / double(supported_[one].size());
 }
 
-/// Lets the one of two triangles go that the edges of both speak for less. Where neither is clearly better both
-/// are where they were foreseen, until the next frames tell.
+/// Lets the one of two triangles go that the edges of both speak for less. Where neither is clearly better
+/// both are where they were foreseen, until the next frames tell.
 void PoseTracker::part(std::size_t one, std::size_t other) {
   const bool less = tracks_[one].score < tracks_[other].score;
   const std::size_t better = less ? other : one, worse = less ? one : other;
@@ -246,7 +246,8 @@ void PoseTracker::part_doubles(double time) {
       const TriangleTrack &a = tracks_[i], &b = tracks_[j];
       if (!a.followed || !b.followed || a.seen != time || b.seen != time) continue;
       if ((a.placed.centroid - b.placed.centroid).norm() > shapes_[i].reach + shapes_[j].reach) continue;
-      const bool i_has_little = share_on(i, j) >= kSharedOutline, j_has_little = share_on(j, i) >= kSharedOutline;
+      const bool i_has_little = share_on(i, j) >= kSharedOutline,
+                 j_has_little = share_on(j, i) >= kSharedOutline;
       if (i_has_little && j_has_little)
         part(i, j);
       else if (i_has_little || j_has_little)
