@@ -15,8 +15,6 @@
 namespace icome::ui {
 namespace {
 
-using animation::Vector2;
-
 class CutoutWindowTest : public CutoutStage {
  protected:
   void key(QWidget& to, int code, const QString& text = {}, Qt::KeyboardModifiers modifiers = {}) {
@@ -113,7 +111,7 @@ TEST_F(CutoutWindowTest, MovedCellsLeaveNothingBehindOnTheStage) {
     std::vector<animation::Hold> holds;
     for (const char* name : {"boat", "bird"}) {
       animation::Hold hold{.cell = cell(name).id, .wish = shown(name)};
-      hold.wish.place += Vector2(name[1] == 'o' ? 23.7 : -41.3, 9.1 * (step % 3));
+      hold.wish.place += animation::Vector2(name[1] == 'o' ? 23.7 : -41.3, 9.1 * (step % 3));
       hold.wish.angle += 0.21;
       hold.wish.scale *= 1.03;
       holds.push_back(hold);
@@ -172,8 +170,8 @@ TEST_F(CutoutWindowTest, JointsAreKeptWhileACellIsDragged) {
   ASSERT_TRUE(document().perform(
       cutout_command("join", {{"parent", "body"}, {"child", "arm"}, {"at", command_point({720, 360})}})));
   drag({640, 330}, {700, 430});
-  const Vector2 pin_on_body = animation::on_stage(cell("body"), shown("body"), {180, 50});
-  const Vector2 pin_on_arm = animation::on_stage(cell("arm"), shown("arm"), {10, 15});
+  const animation::Vector2 pin_on_body = animation::on_stage(cell("body"), shown("body"), {180, 50});
+  const animation::Vector2 pin_on_arm = animation::on_stage(cell("arm"), shown("arm"), {10, 15});
   EXPECT_NEAR(shown("body").place.x(), 700, 1.0);
   EXPECT_LT((pin_on_body - pin_on_arm).norm(), 1e-6);
 }
