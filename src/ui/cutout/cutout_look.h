@@ -9,7 +9,7 @@ struct CutoutLook {
   int onion_after = 1;          // poses
   bool through_camera = false;  // as the camera films it, else all of the stage
   bool constraints = true;      // joints, paths and the like are drawn
-  bool camera_frame = true;     // what the camera sees is framed on the stage
+  bool camera_frame = true;     // the part that the camera sees is framed
   int step = 1;                 // frames from one pose to the next: animation on ones, twos, ...
 };
 

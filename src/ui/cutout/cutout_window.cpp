@@ -17,6 +17,7 @@
 #include <algorithm>
 
 #include "ui/actions/actions.h"
+#include "ui/cutout/document/export_dialog.h"
 #include "ui/cutout/run_cutout.h"
 #include "ui/look/icons.h"
 #include "ui/look/theme.h"
@@ -51,7 +52,7 @@ ShortcutSheet::Part stage_part() {
            {"Move; with Shift along one axis", "Drag a cell"},
            {"Turn; with Shift in steps of 15\u00b0", "Drag the round handle"},
            {"Scale", "Drag a corner"},
-           {"Move the pivot", "Drag the cross"},
+           {"Move the pivot", "Ctrl and drag the cross"},
            {"Move by 1 px, by 10 px", "Arrow keys, with Shift"},
            {"Zoom", "Wheel"},
            {"Shift the view", "Middle drag"},
@@ -117,8 +118,13 @@ CutoutWindow::CutoutWindow(const QString& settings, QWidget* parent)
 }
 
 CutoutWindow::~CutoutWindow() {
+  transport_.stop();
+  // Parts of the window hear of the focus that leaves them, and need the document for that.
+  hide();
   document_.on_change([](CutoutChange) {});
   transport_.on_state([] {});
+  delete takeCentralWidget();
+  qDeleteAll(findChildren<QDockWidget*>());
 }
 
 // Making.
@@ -602,7 +608,7 @@ void CutoutWindow::tell_remark(const std::string& remark) {
   remark.empty() ? statusBar()->clearMessage() : statusBar()->showMessage(one_line(remark), kWordsStay);
 }
 
-// What the menus do.
+// Deeds of the menus.
 
 void CutoutWindow::pose_and_go_on() {
   if (!transport_.is_still()) return transport_.stop();
@@ -699,7 +705,10 @@ void CutoutWindow::ask_mark(int frame) {
 
 void CutoutWindow::choose_export() {
   if (document_.project().cell_count() == 0) return document_.remark("There is nothing to export yet.");
-  files_.choose_and_export({});
+  auto* dialog = new ExportDialog(document_.project(), this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->on_choice([this](const animation::ExportOptions& options) { files_.choose_and_export(options); });
+  dialog->open();
 }
 
 void CutoutWindow::show_shortcuts() {

@@ -7,17 +7,17 @@
 #include <vector>
 
 #include "ui/actions/recent_files.h"
-#include "ui/cutout/cell_panel.h"
-#include "ui/cutout/cell_tree.h"
-#include "ui/cutout/constraint_panel.h"
-#include "ui/cutout/cutout_files.h"
-#include "ui/cutout/exposure_sheet.h"
-#include "ui/cutout/play_bar.h"
-#include "ui/cutout/sound_loader.h"
-#include "ui/cutout/stage_panel.h"
-#include "ui/cutout/table_panel.h"
-#include "ui/cutout/timeline.h"
-#include "ui/cutout/transport.h"
+#include "ui/cutout/document/cutout_files.h"
+#include "ui/cutout/document/sound_loader.h"
+#include "ui/cutout/panels/cell_panel.h"
+#include "ui/cutout/panels/cell_tree.h"
+#include "ui/cutout/panels/constraint_panel.h"
+#include "ui/cutout/panels/stage_panel.h"
+#include "ui/cutout/table/table_panel.h"
+#include "ui/cutout/time/exposure_sheet.h"
+#include "ui/cutout/time/play_bar.h"
+#include "ui/cutout/time/timeline.h"
+#include "ui/cutout/time/transport.h"
 #include "ui/window/banner.h"
 
 class QLabel;
@@ -127,8 +127,8 @@ class CutoutWindow final : public QMainWindow {
   QMenu *recent_menu_ = nullptr, *cell_menu_ = nullptr, *key_menu_ = nullptr;
   QAction *open_ = nullptr, *save_ = nullptr, *undo_ = nullptr, *redo_ = nullptr, *paste_ = nullptr;
   QAction *play_ = nullptr, *record_ = nullptr, *pose_ = nullptr;
-  std::vector<QAction*> of_still_;      // that need the film to stand still
-  std::vector<QAction*> of_selection_;  // that need a cell
+  std::vector<QAction*> of_still_;      // they need the film to stand still
+  std::vector<QAction*> of_selection_;  // they need a cell
   std::vector<QAction*> steps_, runs_;  // for the bar below the stage
   QLabel *hint_ = nullptr, *place_ = nullptr, *count_ = nullptr;
   std::vector<std::filesystem::path> lost_;

@@ -21,7 +21,7 @@ class CutoutStage : public ::testing::Test {
  protected:
   CutoutStage() {
     application();
-    // What is kept for a crash, and settings, are the test's own.
+    // Files that outlive a crash are the test's own.
     qputenv("XDG_DATA_HOME", folder_.filePath("data").toUtf8());
     open_window();
   }

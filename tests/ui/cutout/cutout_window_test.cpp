@@ -62,7 +62,7 @@ TEST_F(CutoutWindowTest, AClickSelectsAndMovesNothing) {
 }
 
 TEST_F(CutoutWindowTest, HandlesTurnScaleAndMoveThePivot) {
-  add_cell("boat", 100, 60);
+  document().select({add_cell("boat", 100, 60)});
   const auto frame = [&] { return *handle_frame(document(), stage().screen_from_stage()); };
   // A quarter turn, counter-clockwise: from above the pivot to the left of it.
   const QPointF middle = on_screen({640, 360});
@@ -75,7 +75,7 @@ TEST_F(CutoutWindowTest, HandlesTurnScaleAndMoveThePivot) {
   drag_on(stage(), corner, middle + 2.0 * (corner - middle));
   EXPECT_NEAR(shown("boat").scale, 2.0, 0.02);
   const auto before = *corners_of(document(), cell("boat").id);
-  drag({640, 360}, {660, 390});
+  drag({640, 360}, {660, 390}, Qt::ControlModifier);
   const QPointF pivot = *frame().pivot;
   EXPECT_NEAR(pivot.x(), on_screen({660, 390}).x(), 0.5);
   const auto after = *corners_of(document(), cell("boat").id);
@@ -115,7 +115,7 @@ TEST_F(CutoutWindowTest, SpaceKeysThePoseAndGoesOn) {
   ASSERT_EQ(x.size(), 2U);
   EXPECT_EQ(x[0].frame, 2);
   EXPECT_NEAR(x[1].value, 800, 1.0);
-  // What hands have moved is keyed by it, too.
+  // It keys cells that hands have moved, too.
   animation::Hold hold{.cell = cell("boat").id, .wish = shown("boat")};
   hold.wish.place.x() = 900;
   document().try_out({hold});

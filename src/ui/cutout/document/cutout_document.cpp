@@ -1,0 +1,367 @@
+#include "ui/cutout/document/cutout_document.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <QStandardPaths>
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+#include <utility>
+
+#include "animation/picture/project_disk.h"
+#include "ui/actions/recent_files.h"
+
+namespace icome::ui {
+namespace {
+
+namespace fs = std::filesystem;
+using animation::Cell;
+using animation::Layer;
+using animation::Project;
+using animation::ProjectEdit;
+
+/// Pictures may lie beside the project's folder, but names do not climb further than this.
+constexpr int kMostStepsUp = 3;
+
+fs::path folder_of_unsaved() {
+  return path_of(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation)) / "unsaved-animations";
+}
+
+/// A place for an unsaved animation that no other window of any program has.
+fs::path place_for_unsaved() {
+  static int number = 0;
+  return folder_of_unsaved() / fmt::format("{}-{}.cutout", ::getpid(), ++number);
+}
+
+/// Does the program live that has kept an animation there?
+bool is_in_use(const fs::path& kept) {
+  const std::string name = kept.filename().string();
+  int process = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), process);
+  return error == std::errc() && process > 0 && (::kill(process, 0) == 0 || errno == EPERM);
+}
+
+/// The name that a file has in a project of that folder.
+std::string name_from(const fs::path& folder, const fs::path& file) {
+  const fs::path whole = fs::absolute(file).lexically_normal();
+  const fs::path relative = whole.lexically_relative(fs::absolute(folder).lexically_normal());
+  const auto up = std::ranges::count(relative, fs::path(".."));
+  return relative.empty() || up > kMostStepsUp ? whole.string() : relative.generic_string();
+}
+
+}  // namespace
+
+CutoutDocument::CutoutDocument() { take(Project(), fs::current_path()); }
+
+CutoutDocument::~CutoutDocument() = default;
+
+void CutoutDocument::use_folder(const fs::path& folder) {
+  pictures_ = std::make_unique<animation::CellPictures>(
+      folder, animation::CellPictureOptions{.reach = animation::Reach::Anywhere});
+}
+
+void CutoutDocument::take(Project project, const fs::path& folder) {
+  saved_ = project;
+  use_folder(folder);
+  // Asks for the pictures each time, as another folder has others.
+  disk_ = {
+      .size = [this](const std::string& picture) { return animation::disk_of(*pictures_).size(picture); },
+      .pictures = [this](const std::string& name) { return animation::disk_of(*pictures_).pictures(name); }};
+  runner_ = std::make_unique<animation::AnimationRunner>(std::move(project), disk_);
+  runner_->set_sink([this](const ProjectEdit& edit) { return write_down(edit); });
+  selection_.clear();
+  keys_.clear();
+  tried_.reset();
+  recording_.reset();
+  frame_ = 0;
+  told_journal_ = false;
+  shown_ = keyed();
+}
+
+/// An edit that cannot be written down is done anyway: a full disk must not keep a person from working on.
+base::Result<void> CutoutDocument::write_down(const ProjectEdit& edit) {
+  if (!journal_ && file_.empty() && kept_.empty()) keep_for_recovery();
+  if (!journal_) return {};
+  const auto added = journal_->add(edit);
+  if (!added && !std::exchange(told_journal_, true))
+    remark_(fmt::format("{} What you do is no longer safe from a crash: save it.", added.error().message));
+  return {};
+}
+
+void CutoutDocument::begin_journal(std::uint64_t length) {
+  journal_.reset();
+  auto journal = animation::ProjectJournal::open(file_.empty() ? kept_ : file_, length);
+  if (journal) {
+    journal_.emplace(std::move(*journal));
+    return;
+  }
+  told_journal_ = true;
+  remark_(fmt::format("{} What you do is not safe from a crash: save it often.", journal.error().message));
+}
+
+/// Gives an animation without a file a place where it outlives a crash.
+void CutoutDocument::keep_for_recovery() {
+  kept_ = place_for_unsaved();
+  std::error_code error;
+  fs::create_directories(kept_.parent_path(), error);
+  if (const auto written = animation::write_project_file(saved_, kept_); written) begin_journal(0);
+}
+
+CellStates CutoutDocument::keyed() const { return animation::states_at(project(), frame_); }
+
+void CutoutDocument::go_to(int frame) {
+  frame = std::clamp(frame, 0, std::max(0, last_frame()));
+  if (frame == frame_) return;
+  frame_ = frame;
+  tried_.reset();
+  shown_ = keyed();
+  changed_(CutoutChange::Frame);
+}
+
+bool CutoutDocument::is_selected(CellId cell) const {
+  return std::ranges::find(selection_, cell) != selection_.end();
+}
+
+void CutoutDocument::select(std::vector<CellId> cells) {
+  std::erase_if(cells, [this](CellId cell) { return project().find(cell) == nullptr; });
+  if (cells == selection_) return;
+  selection_ = std::move(cells);
+  changed_(CutoutChange::Selection);
+}
+
+const Cell* CutoutDocument::leading() const {
+  return selection_.empty() ? nullptr : project().find(selection_.back());
+}
+
+void CutoutDocument::select_keys(KeyPlaces keys) {
+  if (keys == keys_) return;
+  keys_ = std::move(keys);
+  changed_(CutoutChange::Selection);
+}
+
+bool CutoutDocument::try_out(std::vector<animation::Hold> holds, const CellStates* from) {
+  std::erase_if(holds, [this](const animation::Hold& hold) { return is_locked(project(), hold.cell); });
+  const CellStates before = shown_;
+  CellStates states = from ? *from : before;
+  for (const animation::Hold& hold : holds) states[hold.cell] = hold.wish;
+  tried_ = animation::solved(project(), states, holds, &before).states;
+  shown_ = *tried_;
+  if (recording_) take_down(holds);
+  if (shown_ == before) return false;
+  changed_(CutoutChange::Pose);
+  return true;
+}
+
+/// Cells in hands, and those that they move.
+void CutoutDocument::take_down(const std::vector<animation::Hold>& holds) {
+  const CellStates still = keyed();
+  CellStates moved;
+  for (const auto& [cell, state] : shown_) {
+    const auto before = still.find(cell);
+    const bool is_held = std::ranges::find(holds, cell, &animation::Hold::cell) != holds.end();
+    if (is_held || before == still.end() || !(before->second == state)) moved.emplace(cell, state);
+  }
+  recording_->take(frame_, moved);
+}
+
+void CutoutDocument::begin_recording(std::optional<animation::LayerId> layer) {
+  give_up();
+  recording_.emplace(project(), layer);
+}
+
+void CutoutDocument::end_recording(double tolerance) {
+  if (!recording_) return;
+  const ProjectEdit edit = recording_->finish(tolerance);
+  recording_.reset();
+  give_up();
+  if (edit.empty()) return remark_("Nothing was moved, so nothing was recorded.");
+  perform(edit);
+}
+
+bool CutoutDocument::keep() {
+  if (!tried_) return true;
+  if (recording_) {
+    give_up();
+    return true;
+  }
+  const ProjectEdit edit = animation::keyed_pose(project(), frame_, *tried_);
+  if (edit.empty()) {
+    give_up();
+    return true;
+  }
+  return perform(edit);
+}
+
+void CutoutDocument::give_up() {
+  if (!tried_) return;
+  tried_.reset();
+  shown_ = keyed();
+  changed_(CutoutChange::Pose);
+}
+
+/// Cells and keys that are gone are no longer selected.
+void CutoutDocument::forget_gone() {
+  std::erase_if(selection_, [this](CellId cell) { return project().find(cell) == nullptr; });
+  std::erase_if(keys_, [this](const KeyPlace& place) {
+    const Cell* const cell = project().find(place.cell);
+    return cell == nullptr ||
+           animation::key_at(cell->tracks[std::size_t(place.channel)], place.frame) == nullptr;
+  });
+}
+
+void CutoutDocument::finish() {
+  tried_.reset();
+  frame_ = std::clamp(frame_, 0, std::max(0, last_frame()));
+  forget_gone();
+  shown_ = keyed();
+  changed_(CutoutChange::Project);
+}
+
+bool CutoutDocument::perform(const interaction::Value& command) {
+  const auto done = runner_->perform(command);
+  finish();
+  remark_(done ? *done : done.error().message);
+  return done.has_value();
+}
+
+bool CutoutDocument::perform(const ProjectEdit& edit) {
+  if (edit.empty()) return true;
+  const auto done = runner_->perform(edit);
+  finish();
+  if (!done) remark_(done.error().message);
+  return done.has_value();
+}
+
+void CutoutDocument::undo() {
+  if (runner_->undo()) finish();
+}
+
+void CutoutDocument::redo() {
+  if (runner_->redo()) finish();
+}
+
+fs::path CutoutDocument::folder() const { return pictures_->folder(); }
+
+std::string CutoutDocument::name_in_project(const fs::path& file) const {
+  return file_.empty() ? fs::absolute(file).lexically_normal().string() : name_from(folder(), file);
+}
+
+bool CutoutDocument::is_modified() const { return !(saved_ == project()); }
+
+base::Result<std::string> CutoutDocument::open(const fs::path& file) {
+  auto read = animation::read_project_file(file);
+  if (!read) return tl::unexpected(read.error());
+  close();
+  const fs::path folder = fs::absolute(file).parent_path();
+  take(std::move(read->project), folder);
+  if (read->recovered > 0) saved_ = Project();
+  file_ = file;
+  begin_journal(read->journal_length);
+  changed_(CutoutChange::Project);
+  return std::move(read->note);
+}
+
+base::Result<void> CutoutDocument::recover(const fs::path& kept) {
+  auto read = animation::read_project_file(kept);
+  if (!read) return tl::unexpected(read.error());
+  close();
+  take(std::move(read->project), fs::current_path());
+  saved_ = Project();
+  kept_ = kept;
+  begin_journal(read->journal_length);
+  changed_(CutoutChange::Project);
+  return {};
+}
+
+/// Changes the names of files so that they are the same files from another folder.
+ProjectEdit CutoutDocument::renamed_for(const fs::path& to) const {
+  const fs::path from = folder();
+  const auto renamed = [&](const std::string& name) {
+    const auto hash = name.rfind(".icome#");
+    const std::size_t end = hash == std::string::npos ? name.size() : hash + 6;
+    return name_from(to, from / name.substr(0, end)) + name.substr(end);
+  };
+  ProjectEdit edit;
+  for (const Layer& layer : project().layers)
+    for (const Cell& cell : layer.cells) {
+      animation::CellLook look = animation::look_of(cell);
+      std::ranges::transform(look.pictures, look.pictures.begin(), renamed);
+      if (look.pictures != cell.pictures) edit.push_back(animation::ChangeCell{cell.id, std::move(look)});
+    }
+  if (auto sound = project().sound) {
+    sound->file = renamed(sound->file);
+    if (sound != project().sound) edit.push_back(animation::ChangeSound{sound});
+  }
+  return edit;
+}
+
+base::Result<void> CutoutDocument::save(const fs::path& file) {
+  const fs::path folder = fs::absolute(file).parent_path();
+  const ProjectEdit names = renamed_for(folder);
+  Project project = this->project();
+  if (const auto applied = animation::apply_edit(project, names); !applied)
+    return tl::unexpected(applied.error());
+  auto written = animation::write_project_file(project, file);
+  if (!written) return written;
+  const bool had_file = !file_.empty();
+  close();
+  if (had_file && !names.empty()) {
+    // Earlier steps had other names, and undoing them would bring these back.
+    const int frame = frame_;
+    take(std::move(project), folder);
+    go_to(frame);
+  } else {
+    use_folder(folder);
+    if (!names.empty()) (void)runner_->perform(names);
+    saved_ = std::move(project);
+  }
+  file_ = file;
+  begin_journal(0);
+  finish();
+  return {};
+}
+
+void CutoutDocument::close() {
+  if (journal_) journal_->remove();
+  journal_.reset();
+  if (!kept_.empty()) {
+    std::error_code error;
+    fs::remove(kept_, error);
+  }
+  kept_.clear();
+  file_.clear();
+}
+
+interaction::Value cutout_command(const char* tool, interaction::Value::Fields fields) {
+  fields.insert(fields.begin(), {"op", tool});
+  return fields;
+}
+
+interaction::Value command_point(const base::Vector2& place) {
+  return interaction::Value::List{place.x(), place.y()};
+}
+
+interaction::Value command_texts(const std::vector<std::string>& texts) {
+  interaction::Value::List list;
+  for (const std::string& text : texts) list.emplace_back(text);
+  return list;
+}
+
+std::vector<fs::path> lost_animations() {
+  std::vector<fs::path> lost;
+  std::error_code error;
+  for (fs::directory_iterator it(folder_of_unsaved(), error), end; !error && it != end; it.increment(error))
+    if (it->path().extension() == ".cutout" && !is_in_use(it->path())) lost.push_back(it->path());
+  std::ranges::sort(lost);
+  return lost;
+}
+
+void forget_lost_animation(const fs::path& kept) {
+  std::error_code error;
+  fs::remove(kept, error);
+  fs::remove(animation::journal_of(kept), error);
+}
+
+}  // namespace icome::ui

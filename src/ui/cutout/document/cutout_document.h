@@ -1,0 +1,150 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "animation/files/project_file.h"
+#include "animation/motion/constraints.h"
+#include "animation/picture/stage_picture.h"
+#include "animation/record/posing.h"
+#include "animation/script/animation_tool.h"
+#include "ui/cutout/document/key_edits.h"
+
+namespace icome::ui {
+
+using animation::CellStates;
+
+/// The part of a document that has changed.
+enum class CutoutChange : std::uint8_t {
+  Project,    // anything of it, and all below
+  Frame,      // the present frame, and so what is shown
+  Pose,       // cells that are moved and not keyed yet
+  Selection,  // cells or keys that are selected
+};
+
+/// The animation of a window: what was done to it, its file and its journal, the present frame, what is
+/// selected, and what a drag or a hand tries out. All changes go through animation::AnimationRunner, as those
+/// of a script do.
+class CutoutDocument {
+ public:
+  CutoutDocument();  // an empty stage
+  ~CutoutDocument();
+  CutoutDocument(const CutoutDocument&) = delete;
+  CutoutDocument& operator=(const CutoutDocument&) = delete;
+
+  const animation::Project& project() const { return runner_->project(); }
+  animation::CellPictures& pictures() { return *pictures_; }
+  const animation::ProjectDisk& disk() const { return disk_; }
+
+  int frame() const { return frame_; }
+  /// Goes to a frame; to the first or the last one for those beyond.
+  void go_to(int frame);
+  int last_frame() const { return project().stage.length - 1; }
+
+  /// Cells that are selected, those that are there; the last one leads.
+  const std::vector<CellId>& selection() const { return selection_; }
+  bool is_selected(CellId cell) const;
+  void select(std::vector<CellId> cells);
+  /// The cell that leads the selection; null where none is selected.
+  const animation::Cell* leading() const;
+  /// Keys that are selected.
+  const KeyPlaces& keys() const { return keys_; }
+  void select_keys(KeyPlaces keys);
+
+  /// All cells at the present frame, with what is tried out.
+  const CellStates& shown() const { return shown_; }
+  /// All cells at the present frame by their keys.
+  CellStates keyed() const;
+  /// Shows cells as hands wish them, and the others as `from` has them; none: as they are shown. They obey
+  /// the constraints: what hangs on them moves, too, and they themselves only go where they can. Cells of
+  /// locked layers stay. True: what is shown has changed.
+  bool try_out(std::vector<animation::Hold> holds, const CellStates* from = nullptr);
+  /// Keys what was tried out, as one step to undo; nothing where nothing was, or while it is recorded.
+  bool keep();
+  /// Ends showing what was tried out.
+  void give_up();
+  const std::optional<CellStates>& tried() const { return tried_; }
+
+  /// Takes down what is tried out at each frame, of one layer or, where it is none, of all.
+  void begin_recording(std::optional<animation::LayerId> layer);
+  bool is_recording() const { return recording_.has_value(); }
+  /// Puts what was taken down into the animation, as one step to undo. Keys that make less of a difference
+  /// than `tolerance` (px) are left out.
+  void end_recording(double tolerance);
+
+  /// Uses a tool, as a line of a script does. Remarks and refusals are told; false: it was refused.
+  bool perform(const interaction::Value& command);
+  /// Applies an edit as one step to undo; an empty one is none. Refusals are told; false: it was refused.
+  bool perform(const animation::ProjectEdit& edit);
+  bool can_undo() const { return runner_->can_undo(); }
+  bool can_redo() const { return runner_->can_redo(); }
+  void undo();
+  void redo();
+  /// Numbers for new layers, cells and constraints of one edit.
+  std::uint64_t next_id() const { return project().next_id; }
+
+  /// The folder that names of files count from: that of its file, else the present one.
+  std::filesystem::path folder() const;
+  /// A file's name as the project has it: relative where it has a folder and the file lies in or near it.
+  std::string name_in_project(const std::filesystem::path& file) const;
+
+  const std::filesystem::path& file() const { return file_; }
+  bool is_modified() const;
+  /// Replaces the project by a file's, with what its journal adds. Gives a note on that, mostly empty.
+  base::Result<std::string> open(const std::filesystem::path& file);
+  /// Takes an unsaved animation from where it was kept for a crash, as one without a file.
+  base::Result<void> recover(const std::filesystem::path& kept);
+  /// Writes the project; the file is then the document's own, and names of pictures count from its folder.
+  base::Result<void> save(const std::filesystem::path& file);
+  /// Ends the journal: all is saved, or given up.
+  void close();
+
+  void on_change(std::function<void(CutoutChange)> change) { changed_ = std::move(change); }
+  /// Hears what a tool remarks, or why something was refused.
+  void on_remark(std::function<void(const std::string&)> remark) { remark_ = std::move(remark); }
+  void remark(const std::string& text) const { remark_(text); }
+
+ private:
+  void use_folder(const std::filesystem::path& folder);
+  void take(animation::Project project, const std::filesystem::path& folder);
+  base::Result<void> write_down(const animation::ProjectEdit& edit);
+  void begin_journal(std::uint64_t length);
+  void keep_for_recovery();
+  void take_down(const std::vector<animation::Hold>& holds);
+  animation::ProjectEdit renamed_for(const std::filesystem::path& folder) const;
+  void forget_gone();
+  void finish();
+
+  std::unique_ptr<animation::AnimationRunner> runner_;
+  std::unique_ptr<animation::CellPictures> pictures_;
+  animation::ProjectDisk disk_;
+  animation::Project saved_;  // as the file has it
+  std::optional<animation::ProjectJournal> journal_;
+  std::filesystem::path kept_;  // the stand-in for a file while there is none; empty: not kept yet
+  bool told_journal_ = false;   // a person knows that it cannot be written
+  std::filesystem::path file_;  // empty: it has none
+  int frame_ = 0;
+  std::vector<CellId> selection_;
+  KeyPlaces keys_;
+  CellStates shown_;
+  std::optional<CellStates> tried_;
+  std::optional<animation::Recording> recording_;
+  std::function<void(CutoutChange)> changed_ = [](CutoutChange) {};
+  std::function<void(const std::string&)> remark_ = [](const std::string&) {};
+};
+
+/// A command of these fields: cutout_command("join", {{"parent", ...}}).
+interaction::Value cutout_command(const char* tool, interaction::Value::Fields fields = {});
+/// A place (px) and a list of texts as commands have them.
+interaction::Value command_point(const base::Vector2& place);
+interaction::Value command_texts(const std::vector<std::string>& texts);
+
+/// Animations that were never saved and whose window is gone without being closed: kept for being recovered.
+std::vector<std::filesystem::path> lost_animations();
+/// Gives one up.
+void forget_lost_animation(const std::filesystem::path& kept);
+
+}  // namespace icome::ui
