@@ -9,6 +9,7 @@ import json
 import math
 import pathlib
 import random
+import struct
 import subprocess
 import sys
 
@@ -66,6 +67,23 @@ def waves(path, length, height, count, depth, colour, foam, seed):
             f'<path d="{rim}" fill="none" stroke="{foam}" stroke-width="5" stroke-opacity="0.75"/>')
 
 
+def sea_sound(path, seconds):
+    """Surf: noise that swells with the waves, as OGG by ffmpeg."""
+    rate, low, slow = 22050, 0.0, 0.0
+    rng = random.Random(10)
+    values = bytearray()
+    for i in range(round(seconds * rate)):
+        t = i / rate
+        swell = 0.35 + 0.65 * (0.5 - 0.5 * math.cos(2 * math.pi * t / 2)) ** 2
+        low += 0.22 * (rng.uniform(-1, 1) - low)
+        slow += 0.02 * (rng.uniform(-1, 1) - slow)
+        value = max(-1.0, min(1.0, swell * (0.8 * low + 1.6 * slow)))
+        values += struct.pack("<h", round(20000 * value))
+    subprocess.run(["ffmpeg", "-v", "error", "-y", "-f", "s16le", "-ar", str(rate), "-ac", "1", "-i", "-",
+                    "-fflags", "+bitexact", "-flags:a", "+bitexact", "-c:a", "libvorbis", "-q:a", "0", path],
+                   input=bytes(values), check=True)
+
+
 def save(folder, commands, program):
     """Writes the script of a project and lets the program make the project of it."""
     script = folder / f"{folder.name}.jsonl"
@@ -100,6 +118,7 @@ def make_boat(program):
             "M4 14 Q24 24 44 30 Q64 24 84 14 Q64 34 44 38 Q24 34 4 14 Z")
     for number, path in enumerate(bird):
         picture(folder / f"bird{number}.svg", 88, 44, f'<path d="{path}" fill="#3f4a56"/>')
+    sea_sound(folder / "sea.ogg", length / 24)
     waves(folder / "sea-back.svg", 320, 34, 6, 330, "#3d7ea6", "#a9d3e5", 7)
     waves(folder / "sea-middle.svg", 400, 46, 5, 280, "#2b6a94", "#8fc4dc", 8)
     waves(folder / "sea-front.svg", 480, 58, 5, 240, "#1d5379", "#7fb8d4", 9)
@@ -148,7 +167,7 @@ def make_boat(program):
                  {"op": "expose", "cell": "gull", "frame": 0, "pictures": [0, 1] * 12, "each": 4},
                  {"op": "key", "cell": "cloud", "frame": 0, "x": 280}, {"op": "key", "cell": "cloud", "frame": 95, "x": 340},
                  {"op": "key", "cell": "sun", "frame": 0, "angle": 0}, {"op": "key", "cell": "sun", "frame": 96, "angle": 22.5},
-                 {"op": "mark", "frame": 24, "text": "crest"}, {"op": "mark", "frame": 72, "text": "crest"},
+                 {"op": "sound", "file": "sea.ogg"}, {"op": "mark", "frame": 24, "text": "crest"}, {"op": "mark", "frame": 72, "text": "crest"},
                  {"op": "map", "triangle": "boat", "mode": "relative", "cell": "boat"},
                  {"op": "map", "triangle": "any", "mode": "nearest"}]
     save(folder, commands, program)

@@ -1,4 +1,4 @@
-"""Reads the pictures that the program writes."""
+"""Reads the pictures that the program writes, and writes some for it to read."""
 import struct
 import zlib
 
@@ -32,3 +32,12 @@ def pixels(file):
                      for x in range(width)])
         above = line
     return width, height, rows
+
+
+def write(file, rows):
+    """Writes an opaque PNG of rows of 3 bytes a pixel."""
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+    header = struct.pack(">IIBBBBB", len(rows[0]) // 3, len(rows), 8, 2, 0, 0, 0)
+    packed = zlib.compress(b"".join(b"\0" + row for row in rows))
+    file.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", packed) + chunk(b"IEND", b""))

@@ -12,6 +12,8 @@ import tempfile
 import time
 import unittest
 
+import png_pixels
+
 PROGRAM = os.environ["ICOME_PROGRAM"]
 
 
@@ -70,6 +72,17 @@ class Track(unittest.TestCase):
     def tracked(self, *more, source=None):
         done = run(source or self.made, "--known", self.made / "known.toml", "--view", self.made / "view.toml", "--json", *more)
         return json.loads(done.stdout)
+
+    def test_says_that_nothing_was_found_and_why(self):
+        for has_blue, words in [(False, "nothing blue lies on the table"), (True, "other angles or heights")]:
+            rows = [bytes([200, 40, 40]) * 160 for _ in range(120)]
+            if has_blue:  # a rectangle, which is no triangle of the list
+                rows[40:80] = [bytes([200, 40, 40]) * 50 + bytes([30, 60, 200]) * 60 + bytes([200, 40, 40]) * 50] * 40
+            picture = self.folder / "plain.png"
+            png_pixels.write(picture, rows)
+            done = run(picture, "--known", self.made / "known.toml")
+            self.assertIn("no triangle of", done.stderr)
+            self.assertIn(words, done.stderr)
 
     def test_made_frames_come_with_their_truth(self):
         truth = json.loads((self.made / "truth.json").read_text())

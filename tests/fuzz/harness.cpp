@@ -8,7 +8,7 @@ namespace icome::fuzz {
 std::vector<Harness> harnesses() {
   std::vector<Harness> all;
   for (const auto part : {mesh_harnesses(), design_harnesses(), text_harnesses(), vrpn_harnesses(),
-                          haply_harnesses(), collab_harnesses(), drawing_harnesses()})
+                          haply_harnesses(), collab_harnesses(), drawing_harnesses(), cutout_harnesses()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

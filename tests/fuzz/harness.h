@@ -18,7 +18,7 @@ struct Harness {
 };
 
 /// All harnesses: of files, of shapes and edits, of texts that people write, of devices over the
-/// network, of designs that are shared, and of drawings.
+/// network, of designs that are shared, of drawings and of cut-out animations.
 std::vector<Harness> harnesses();
 
 // Parts of that list.
@@ -29,6 +29,7 @@ std::span<const Harness> vrpn_harnesses();
 std::span<const Harness> haply_harnesses();
 std::span<const Harness> collab_harnesses();
 std::span<const Harness> drawing_harnesses();
+std::span<const Harness> cutout_harnesses();
 
 /// Ends the program, telling what was promised, unless that holds.
 void require(bool holds, const char* promise);

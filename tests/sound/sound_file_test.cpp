@@ -61,7 +61,7 @@ TEST_F(SoundFile, TellsWhatIsWrong) {
   };
   write_wav(folder_ / "long.wav", 8000, 1, std::vector<double>(16001));
   std::ofstream(folder_ / "text.wav") << "no sound";
-  std::ofstream(folder_ / "empty.ogg");
+  std::ofstream(folder_ / "empty.ogg") << "";
   EXPECT_EQ(fault("gone.wav"), "gone.wav: there is no such file");
   EXPECT_EQ(fault("long.wav", 2), "long.wav: lasts more than 0.0333333 minutes; cut it into parts");
   EXPECT_TRUE(fault("text.wav").starts_with("text.wav: is no sound that can be read")) << fault("text.wav");

@@ -1,6 +1,4 @@
 #pragma once
-#include <sys/types.h>
-
 #include <functional>
 #include <string>
 #include <string_view>
@@ -36,7 +34,7 @@ class Ffmpeg {
   base::Result<void> finish(const GoesOn& goes_on);
 
  private:
-  Ffmpeg(pid_t process, int input, int complaints)
+  Ffmpeg(int process, int input, int complaints)
       : process_(process), input_(input), complaints_(complaints) {}
   void hear();
   tl::unexpected<base::Error> failed();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <vector>
 
 // The loop over the inner pixels of a picture takes four channels at a time where the processor can, with the
 // results of the one for single channels.
@@ -179,14 +179,14 @@ struct MixWeights {
 };
 
 const MixWeights& mix_weights() {
-  static const MixWeights made = [] {
+  static const MixWeights kMade = [] {
     MixWeights weights{};
     for (std::uint32_t i = 0; i <= kWeightOne; ++i) weights.of_one[i] = _mm_set1_epi16(short(i));
     for (std::uint32_t i = 0; i < kWeightOne; ++i)
       weights.of_two[i] = _mm_set1_epi32(int(kWeightOne - i) | int(i << 16U));
     return weights;
   }();
-  return made;
+  return kMade;
 }
 #endif
 
@@ -234,6 +234,43 @@ void lay_inner(const Pixels& picture, const LaidRow& row, const Span& span, cons
     onto[x] = over(look.of(colour_at(picture, place), look.opacity), onto[x]);
 }
 
+/// The tint's share of a pixel's four channels, times kOpaque, by the pixel's opacity.
+using TintOfAlpha = std::array<std::uint16_t, 4>;
+
+std::vector<TintOfAlpha> tints_of(const ExactLook& look) {
+  std::vector<TintOfAlpha> tints(256);
+  for (std::uint32_t alpha = 0; alpha < 256; ++alpha)
+    for (std::size_t c = 0; c < 4; ++c) tints[alpha][c] = std::uint16_t((look.tint[c] * alpha + 127) / 255);
+  return tints;
+}
+
+/// As over(look.of(from, look.opacity), to) for every pixel of a row.
+void lay_line(const std::uint32_t* from, const ExactLook& look, const std::vector<TintOfAlpha>& tints,
+              std::uint32_t* to, int width) {
+#if defined(__SSE2__)
+  const __m128i zero = _mm_setzero_si128();
+  const __m128i half = _mm_set1_epi16(128), all = _mm_set1_epi16(255);
+  const __m128i kept_share = _mm_set1_epi16(short(look.kept)), opacity = _mm_set1_epi16(short(look.opacity));
+  for (int x = 0; x < width; ++x) {
+    if (from[x] == 0) continue;
+    const __m128i tint = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(&tints[alpha_of(from[x])]));
+    __m128i above = _mm_unpacklo_epi8(_mm_cvtsi32_si128(int(from[x])), zero);
+    above = _mm_add_epi16(_mm_add_epi16(_mm_mullo_epi16(above, kept_share), tint), half);
+    above = _mm_srli_epi16(above, 8);
+    above = _mm_srli_epi16(_mm_add_epi16(_mm_mullo_epi16(above, opacity), half), 8);
+    const __m128i clear = _mm_sub_epi16(all, _mm_shufflelo_epi16(above, _MM_SHUFFLE(3, 3, 3, 3)));
+    const __m128i below = _mm_unpacklo_epi8(_mm_cvtsi32_si128(int(to[x])), zero);
+    const __m128i product = _mm_add_epi16(_mm_mullo_epi16(below, clear), half);
+    const __m128i kept = _mm_srli_epi16(_mm_add_epi16(product, _mm_srli_epi16(product, 8)), 8);
+    to[x] = std::uint32_t(_mm_cvtsi128_si32(_mm_packus_epi16(_mm_add_epi16(above, kept), zero)));
+  }
+#else
+  static_cast<void>(tints);
+  for (int x = 0; x < width; ++x)
+    if (from[x] != 0) to[x] = over(look.of(from[x], look.opacity), to[x]);
+#endif
+}
+
 }  // namespace
 
 std::uint32_t word_of(const world::Colour& colour) {
@@ -275,12 +312,10 @@ void lay(const Pixels& picture, const Affine2& onto_from_picture, const LayingLo
 void lay_even(const Pixels& picture, int first_row, const LayingLook& look, const PixelsView& onto,
               const Rows& rows) {
   const ExactLook exact(look);
-  for (int y = rows.begin; y < rows.end; ++y) {
-    const std::uint32_t* const from = picture.row(y - first_row);
-    std::uint32_t* const to = onto.row(y);
-    for (int x = 0; x < onto.width; ++x)
-      if (from[x] != 0) to[x] = over(exact.of(from[x], exact.opacity), to[x]);
-  }
+  if (exact.opacity == 0) return;
+  const std::vector<TintOfAlpha> tints = tints_of(exact);
+  for (int y = rows.begin; y < rows.end; ++y)
+    lay_line(picture.row(y - first_row), exact, tints, onto.row(y), onto.width);
 }
 
 }  // namespace icome::animation

@@ -55,8 +55,8 @@ PictureSize stand_in_size(const Cell& cell, CellPictures& pictures) {
 RasterPointer raster_or_stand_in(CellPictures& pictures, const Cell& cell, const std::string& picture,
                                  double scale) {
   if (auto raster = pictures.raster(picture, scale)) return *raster;
-  static const Pixels crossed = crossed_frame();
-  return std::make_shared<const Raster>(Raster{crossed, stand_in_size(cell, pictures)});
+  static const Pixels kCrossed = crossed_frame();
+  return std::make_shared<const Raster>(Raster{kCrossed, stand_in_size(cell, pictures)});
 }
 
 /// A cell's picture, ready to be laid.

@@ -15,6 +15,7 @@
 #include "apps/track/found_picture.h"
 #include "apps/track/track_work.h"
 #include "apps/track/truth_file.h"
+#include "cutout/calibration/frame_quality.h"
 #include "cutout/output/tuio.h"
 
 namespace icome::apps {
@@ -242,8 +243,22 @@ class TrackRun {
       if (!interrupted()) tell(fmt::format("{}: no frame could be read", options_.source));
       exit_code = interrupted() ? kTrackInterrupted : kFailed;
     }
+    tell_of_nothing();
     const int printed = print_answer(options_.json ? json_end() : summary());
     return exit_code != 0 ? exit_code : printed;
+  }
+
+  /// Says so where no triangle was seen, and what may be the reason.
+  void tell_of_nothing() const {
+    constexpr double kLeastBlue = 0.001;  // of a frame
+    if (totals_.frames == 0 || std::ranges::any_of(totals_.seen, [](std::size_t count) { return count > 0; }))
+      return;
+    const bool has_blue = cutout::quality_of(last_frame_.view()).blue >= kLeastBlue;
+    tell(fmt::format("no triangle of {} was found: {}", options_.known.string(),
+                     has_blue
+                         ? "the blue ones on the table have other angles or heights, or --table or --view "
+                           "are not this table's"
+                         : "nothing blue lies on the table"));
   }
 
   std::string json_end() const {

@@ -140,6 +140,18 @@ TEST(Laying, TintsTowardsASilhouette) {
   }
 }
 
+TEST(Laying, EvenlyIsAsByATransformThatChangesNothing) {
+  const Pixels picture = noise(30, 20, 9), ground = noise(30, 20, 10);
+  for (const double share : {0.0, 0.3, 0.6, 1.0})
+    for (const double opacity : {0.0, 0.3, 1.0}) {
+      const LayingLook look = {opacity, {{0.9F, 0.2F, 0.4F}, share}};
+      Pixels one = ground, other = ground;
+      lay(picture, Affine2::Identity(), look, one, {0, 20});
+      lay_even(picture, 0, look, other, {0, 20});
+      EXPECT_EQ(one.words, other.words) << share << ' ' << opacity;
+    }
+}
+
 TEST(Laying, DrawsNothingByNonsense) {
   const Pixels picture = plain_pixels(4, 4, kWhite);
   Pixels onto(8, 8);
