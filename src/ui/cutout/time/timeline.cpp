@@ -45,6 +45,8 @@ void Timeline::refresh() {
 void Timeline::follow_frame() {
   const double width = viewport()->width() - kNames;
   const double left = scale_.left_of(document_.frame());
+  // Before it has its place in the window it has no width to speak of.
+  if (width < 2.0 * scale_.frame_width) return viewport()->update();
   if (left < 0 || left + scale_.frame_width > width) {
     const double wanted = document_.frame() * scale_.frame_width - 0.2 * width;
     horizontalScrollBar()->setValue(int(std::lround(wanted)));
