@@ -89,7 +89,7 @@ class Absurd : public testing::TestWithParam<int> {};
 
 TEST_P(Absurd, ProjectsEndInFiniteStatesTheSameEachTime) {
   for (int k = 0; k < repeats(2000); ++k) {
-    const auto seed = std::uint64_t(GetParam() * 100000 + k);
+    const auto seed = std::uint64_t(GetParam()) * 100000 + std::uint64_t(k);
     const Scene scene = absurd_scene(seed);
     const Solution first = solved(scene.project, scene.wished, scene.held);
     ASSERT_TRUE(is_finite(first.states)) << seed;
