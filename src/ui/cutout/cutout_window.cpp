@@ -32,7 +32,8 @@ namespace {
 constexpr int kPanelWidth = 78 * kGrid;
 constexpr int kTimeHeight = 62 * kGrid;
 constexpr double kStageZoomStep = 1.25;
-constexpr int kWordsStay = 6000;  // ms
+constexpr int kWordsStay = 6000;   // ms
+constexpr int kValuesFollow = 60;  // ms
 constexpr const char* kNoCutoutDisplayWays =
     "`icome animate` changes an animation without one, and exports it.";
 constexpr const char* kHint =
@@ -109,6 +110,9 @@ CutoutWindow::CutoutWindow(const QString& settings, QWidget* parent)
   document_.on_change([this](CutoutChange change) { hear(change); });
   document_.on_remark([this](const std::string& remark) { tell_remark(remark); });
   transport_.on_state([this] { show_state(); });
+  late_values_.setSingleShot(true);
+  late_values_.setInterval(kValuesFollow);
+  connect(&late_values_, &QTimer::timeout, this, [this] { cell_->refresh(); });
   resize(1360, 900);
   resizeDocks(findChildren<QDockWidget*>(), {kPanelWidth, kPanelWidth, kPanelWidth, kPanelWidth},
               Qt::Horizontal);
@@ -523,8 +527,10 @@ void CutoutWindow::hear(CutoutChange change) {
     case CutoutChange::Frame:
       return show_frame();
     case CutoutChange::Pose:
-      stage_->refresh();
-      return cell_->refresh();
+      stage_->show_moved();
+      // Fields need not follow each move of a hand.
+      if (!late_values_.isActive()) late_values_.start();
+      return;
     case CutoutChange::Selection:
       return show_selection();
   }
@@ -533,6 +539,7 @@ void CutoutWindow::hear(CutoutChange change) {
 void CutoutWindow::show_project() {
   const animation::Project& project = document_.project();
   sounds_.follow(document_);
+  stage_->refresh();
   cells_->refresh();
   timeline_->refresh();
   sheet_->refresh();

@@ -1,6 +1,7 @@
 #pragma once
 #include <QMainWindow>
 #include <QSettings>
+#include <QTimer>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -131,6 +132,7 @@ class CutoutWindow final : public QMainWindow {
   std::vector<QAction*> of_selection_;  // they need a cell
   std::vector<QAction*> steps_, runs_;  // for the bar below the stage
   QLabel *hint_ = nullptr, *place_ = nullptr, *count_ = nullptr;
+  QTimer late_values_;
   std::vector<std::filesystem::path> lost_;
   bool agreed_ = false;  // a person has agreed to close
 };

@@ -15,8 +15,6 @@
 namespace icome::ui {
 namespace {
 
-using animation::Vector2;
-
 class CutoutWindowTest : public CutoutStage {
  protected:
   void key(QWidget& to, int code, const QString& text = {}, Qt::KeyboardModifiers modifiers = {}) {
@@ -102,6 +100,38 @@ TEST_F(CutoutWindowTest, ArrowKeysMoveByPixels) {
   EXPECT_NEAR(shown("boat").place.y(), 350, 1e-9);
 }
 
+/// Parts that are drawn anew make the picture that is drawn whole.
+TEST_F(CutoutWindowTest, MovedCellsLeaveNothingBehindOnTheStage) {
+  add_cell("sea", 900, 200, Qt::blue);
+  add_cell("boat", 120, 70, Qt::darkRed);
+  add_cell("bird", 60, 40, Qt::yellow);
+  document().select({});
+  (void)stage().grab();
+  for (int step = 0; step < 12; ++step) {
+    std::vector<animation::Hold> holds;
+    for (const char* name : {"boat", "bird"}) {
+      animation::Hold hold{.cell = cell(name).id, .wish = shown(name)};
+      hold.wish.place += animation::Vector2(name[1] == 'o' ? 23.7 : -41.3, 9.1 * (step % 3));
+      hold.wish.angle += 0.21;
+      hold.wish.scale *= 1.03;
+      holds.push_back(hold);
+    }
+    document().try_out(holds);
+    const QImage moved = stage().grab().toImage();
+    stage().refresh();
+    const QImage whole = stage().grab().toImage();
+    int differing = 0;
+    for (int y = 0; y < whole.height(); ++y)
+      for (int x = 0; x < whole.width(); ++x) {
+        const QColor a = moved.pixelColor(x, y), b = whole.pixelColor(x, y);
+        const int apart = std::max(
+            {std::abs(a.red() - b.red()), std::abs(a.green() - b.green()), std::abs(a.blue() - b.blue())});
+        if (apart > 2) ++differing;
+      }
+    ASSERT_EQ(differing, 0) << "step " << step;
+  }
+}
+
 TEST_F(CutoutWindowTest, SpaceKeysThePoseAndGoesOn) {
   add_cell("boat");
   window_->look().step = 2;
@@ -140,8 +170,8 @@ TEST_F(CutoutWindowTest, JointsAreKeptWhileACellIsDragged) {
   ASSERT_TRUE(document().perform(
       cutout_command("join", {{"parent", "body"}, {"child", "arm"}, {"at", command_point({720, 360})}})));
   drag({640, 330}, {700, 430});
-  const Vector2 pin_on_body = animation::on_stage(cell("body"), shown("body"), {180, 50});
-  const Vector2 pin_on_arm = animation::on_stage(cell("arm"), shown("arm"), {10, 15});
+  const animation::Vector2 pin_on_body = animation::on_stage(cell("body"), shown("body"), {180, 50});
+  const animation::Vector2 pin_on_arm = animation::on_stage(cell("arm"), shown("arm"), {10, 15});
   EXPECT_NEAR(shown("body").place.x(), 700, 1.0);
   EXPECT_LT((pin_on_body - pin_on_arm).norm(), 1e-6);
 }

@@ -96,8 +96,13 @@ void StageView::refresh() {
 
 void StageView::follow_frame() {
   // A drag goes on from frame to frame while the animation runs.
-  if (contact_ == Contact::Drag && !pivot_) return drag_to(last_, strict_);
-  refresh();
+  if (contact_ == Contact::Drag && !pivot_) drag_to(last_, strict_);
+  show_moved();
+}
+
+void StageView::show_moved() {
+  is_moved_ = true;
+  update();
 }
 
 void StageView::fit() {
@@ -141,34 +146,83 @@ void StageView::resizeEvent(QResizeEvent* /*event*/) { refresh(); }
 
 // Painting.
 
-void StageView::renew_picture() {
-  const double ratio = devicePixelRatioF();
-  const QSize pixels = (QSizeF(size()) * ratio).toSize();
-  if (picture_.size() != pixels) picture_ = QImage(pixels, QImage::Format_ARGB32_Premultiplied);
-  picture_.setDevicePixelRatio(1.0);
+/// The part of the picture in which cells lie otherwise than they were drawn.
+QRegion StageView::changed_part(const Affine2& pixels_from_stage) {
+  constexpr double kRim = 2.0;        // pixels around a cell that it may touch
+  constexpr int kMostParts = 8;       // more are drawn as one
+  constexpr double kNearlyAll = 0.6;  // of the picture: then all of it is drawn
+  QRegion changed;
+  const auto add = [&](const animation::Cell& cell, const CellStates& states) {
+    const auto found = states.find(cell.id);
+    if (found == states.end()) return;
+    const auto corners = animation::outline_of(cell, found->second, document_.pictures());
+    if (!corners) return;
+    QPolygonF outline;
+    for (const Vector2& corner : *corners) outline << point_of(pixels_from_stage * corner);
+    const QRectF around = outline.boundingRect().adjusted(-kRim, -kRim, kRim, kRim);
+    changed += around.intersected(QRectF(picture_.rect())).toAlignedRect();
+  };
+  for (const animation::Layer& layer : document_.project().layers) {
+    if (!layer.visible) continue;
+    for (const animation::Cell& cell : layer.cells) {
+      const CellStates& drawn = drawn_;
+      const auto before = drawn.find(cell.id), now = document_.shown().find(cell.id);
+      const bool is_same =
+          before != drawn_.end() && now != document_.shown().end() && before->second == now->second;
+      if (is_same) continue;
+      add(cell, drawn_);
+      add(cell, document_.shown());
+    }
+  }
+  changed &= picture_.rect();
+  if (changed.rectCount() > kMostParts) changed = changed.boundingRect();
+  double area = 0;
+  for (const QRect& part : changed) area += double(part.width()) * part.height();
+  const double whole = double(picture_.width()) * picture_.height();
+  return area > kNearlyAll * whole ? QRegion(picture_.rect()) : changed;
+}
+
+void StageView::draw_part(const QRect& part, const Affine2& pixels_from_stage) {
   animation::FrameOptions options;
   options.through_camera = look_.through_camera;
   options.backdrop = animation::Backdrop::Stage;
-  options.picture_from_stage = Eigen::Scaling(ratio) * screen_from_stage();
-  const animation::PixelsView view(reinterpret_cast<std::uint32_t*>(picture_.bits()), picture_.width(),
-                                   picture_.height(), picture_.bytesPerLine() / 4);
+  options.picture_from_stage = Eigen::Translation2d(-part.x(), -part.y()) * pixels_from_stage;
+  const std::ptrdiff_t row_words = picture_.bytesPerLine() / 4;
+  auto* const words = reinterpret_cast<std::uint32_t*>(picture_.bits()) + part.y() * row_words + part.x();
+  const animation::PixelsView view(words, part.width(), part.height(), row_words);
   animation::draw_frame(document_.project(), document_.shown(), document_.pictures(), options, view);
+}
+
+void StageView::renew_picture() {
+  const double ratio = devicePixelRatioF();
+  const QSize pixels = (QSizeF(size()) * ratio).toSize();
+  const Affine2 map = Eigen::Scaling(ratio) * screen_from_stage();
+  if (picture_.size() != pixels || map.matrix() != drawn_map_.matrix()) is_stale_ = true;
+  if (picture_.size() != pixels) picture_ = QImage(pixels, QImage::Format_ARGB32_Premultiplied);
+  const QRegion parts = is_stale_ ? QRegion(picture_.rect()) : changed_part(map);
+  for (const QRect& part : parts) draw_part(part, map);
   picture_.setDevicePixelRatio(ratio);
-  is_stale_ = false;
+  drawn_ = document_.shown();
+  drawn_map_ = map;
+  is_stale_ = is_moved_ = false;
   skins_ = QImage();
-  if (!look_.onion) return;
-  // Over the frame, as a background would hide them below it.
-  skins_ = QImage(pixels, QImage::Format_ARGB32_Premultiplied);
-  options.backdrop = animation::Backdrop::None;
-  options.onion = onion_of(document_, look_);
+  if (look_.onion) renew_skins({.through_camera = look_.through_camera, .picture_from_stage = map});
+}
+
+/// Other poses, over the frame, as a background would hide them below it.
+void StageView::renew_skins(const animation::FrameOptions& options) {
+  skins_ = QImage(picture_.size(), QImage::Format_ARGB32_Premultiplied);
+  animation::FrameOptions skins = options;
+  skins.backdrop = animation::Backdrop::None;
+  skins.onion = onion_of(document_, look_);
   const animation::PixelsView onto(reinterpret_cast<std::uint32_t*>(skins_.bits()), skins_.width(),
                                    skins_.height(), skins_.bytesPerLine() / 4);
-  animation::draw_frame(document_.project(), {}, document_.pictures(), options, onto);
-  skins_.setDevicePixelRatio(ratio);
+  animation::draw_frame(document_.project(), {}, document_.pictures(), skins, onto);
+  skins_.setDevicePixelRatio(picture_.devicePixelRatio());
 }
 
 void StageView::paintEvent(QPaintEvent* /*event*/) {
-  if (is_stale_ && !size().isEmpty()) renew_picture();
+  if ((is_stale_ || is_moved_) && !size().isEmpty()) renew_picture();
   QPainter painter(this);
   painter.fillRect(rect(), is_dark() ? colours().base : colours().window);
   painter.drawImage(QPoint(), picture_);

@@ -19,6 +19,8 @@ class StageView final : public QWidget {
 
   /// Shows the document as it is now.
   void refresh();
+  /// Shows cells that have moved, and draws only the parts of the picture that they have changed.
+  void show_moved();
   /// Shows another frame; what is dragged goes on in it.
   void follow_frame();
   void fit();
@@ -80,6 +82,9 @@ class StageView final : public QWidget {
   void end_question(bool use);
   void show_cursor(QPointF at);
   void renew_picture();
+  void renew_skins(const animation::FrameOptions& options);
+  QRegion changed_part(const animation::Affine2& pixels_from_stage);
+  void draw_part(const QRect& part, const animation::Affine2& pixels_from_stage);
   void paint_surroundings(QPainter& painter);
   void paint_hover(QPainter& painter);
   void paint_question(QPainter& painter);
@@ -92,8 +97,12 @@ class StageView final : public QWidget {
   StageScale scale_;
   bool is_fitted_ = true;  // the stage is seen whole, also when the widget changes its size
   QImage picture_;
-  QImage skins_;          // other poses, over it; null: none
-  bool is_stale_ = true;  // the picture
+  QImage skins_;           // other poses, over it; null: none
+  bool is_stale_ = true;   // all of the picture
+  bool is_moved_ = false;  // cells lie otherwise than the picture has them
+  CellStates drawn_;       // as the picture has them
+  animation::Affine2 drawn_map_ =
+      animation::Affine2::Identity();  // pixels of the picture from px of the stage
   Contact contact_ = Contact::None;
   StageDrag drag_;
   int drag_frame_ = 0;  // the animation's, in which it began

@@ -25,9 +25,9 @@ namespace {
 
 using animation::MappingMode;
 
-constexpr double kScreenBudget = 0.015;            // s from a frame of the table to the screen
-constexpr std::int64_t kWordsEvery = 250'000'000;  // ns between renewals of words that change with each frame
-constexpr double kLargestTable = 10.0;             // m
+constexpr double kScreenBudget = 0.015;  // s from a frame of the table to the screen
+constexpr int kWordsEvery = 250;         // ms between renewals of words that change with each frame
+constexpr double kLargestTable = 10.0;   // m
 constexpr const char* kModeNames[] = {"nothing", "absolute", "relative", "nearest"};
 constexpr const char* kModeTips[] = {"The triangle moves nothing", "The cell is where the triangle is",
                                      "What the triangle is moved is added to the cell",
@@ -100,6 +100,9 @@ TablePanel::TablePanel(CutoutDocument& document, QSettings& settings, QWidget* p
   height_->show_value(0.001 * table_height_);
   follower_.on_sight([this](const TableSight& sight) { take_sight(sight); });
   follower_.on_state([this] { show_state(); });
+  words_.setSingleShot(true);
+  words_.setInterval(kWordsEvery);
+  connect(&words_, &QTimer::timeout, this, [this] { show_status(); });
   refresh();
 }
 
@@ -222,12 +225,9 @@ void TablePanel::stop() {
 
 void TablePanel::take_sight(const TableSight& sight) {
   last_ = sight;
-  // A frame that moves nothing is not painted.
+  // A frame that moves nothing is not painted. Words wait: they would keep the picture waiting.
   if (hands_.take(sight, follower_.known())) awaited_ = sight.arrived;
-  const std::int64_t now = base::steady_nanoseconds();
-  if (now - shown_at_ < kWordsEvery) return;
-  shown_at_ = now;
-  show_status();
+  if (!words_.isActive()) words_.start();
 }
 
 void TablePanel::follow_frame() {

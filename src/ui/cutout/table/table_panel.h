@@ -1,5 +1,6 @@
 #pragma once
 #include <QSettings>
+#include <QTimer>
 #include <QWidget>
 #include <functional>
 #include <vector>
@@ -71,7 +72,7 @@ class TablePanel final : public QWidget {
   QGridLayout* rows_ = nullptr;
   QWidget* table_ = nullptr;
   double table_width_ = 640, table_height_ = 480;  // mm
-  std::int64_t shown_at_ = 0;                      // ns: when the words were renewed last
+  QTimer words_;
 };
 
 }  // namespace icome::ui

@@ -8,11 +8,6 @@
 namespace icome::ui {
 namespace {
 
-using animation::Ease;
-using animation::Key;
-using animation::Project;
-using animation::Track;
-
 class KeyEdits : public ::testing::Test {
  protected:
   KeyEdits() {
@@ -34,21 +29,23 @@ class KeyEdits : public ::testing::Test {
     const auto done = animation::apply_edit(project_, edit);
     ASSERT_TRUE(done) << done.error().message;
   }
-  void set(CellId cell, Channel channel, const Track& track) {
+  void set(CellId cell, Channel channel, const animation::Track& track) {
     perform({animation::ChangeKeys{cell, channel, 0, 1000, track}});
   }
-  const Track& track(CellId cell, Channel channel) const {
+  const animation::Track& track(CellId cell, Channel channel) const {
     return project_.find(cell)->tracks[std::size_t(channel)];
   }
 
   static constexpr CellId kArm{3}, kLeg{4};
-  Project project_;
+  animation::Project project_;
 };
 
 TEST_F(KeyEdits, KeysThatAreMovedLieOnOthersAndKeepTheirEase) {
-  set(kArm, Channel::X, {{0, 1, Ease::Hold}, {5, 2, Ease::Eased}, {9, 3, Ease::Straight}});
+  set(kArm, Channel::X,
+      {{0, 1, animation::Ease::Hold}, {5, 2, animation::Ease::Eased}, {9, 3, animation::Ease::Straight}});
   perform(moved_keys(project_, {{kArm, Channel::X, 5}}, 4));
-  EXPECT_EQ(track(kArm, Channel::X), (Track{{0, 1, Ease::Hold}, {9, 2, Ease::Eased}}));
+  EXPECT_EQ(track(kArm, Channel::X),
+            (animation::Track{{0, 1, animation::Ease::Hold}, {9, 2, animation::Ease::Eased}}));
 }
 
 TEST_F(KeyEdits, NoKeyIsMovedBeforeTheFirstFrame) {
@@ -56,7 +53,7 @@ TEST_F(KeyEdits, NoKeyIsMovedBeforeTheFirstFrame) {
   const KeyPlaces keys = {{kArm, Channel::X, 2}, {kArm, Channel::X, 7}};
   EXPECT_EQ(possible_move(keys, -5), -2);
   perform(moved_keys(project_, keys, -5));
-  EXPECT_EQ(track(kArm, Channel::X), (Track{{0, 1}, {5, 2}}));
+  EXPECT_EQ(track(kArm, Channel::X), (animation::Track{{0, 1}, {5, 2}}));
   EXPECT_EQ(moved_places(keys, -5), (KeyPlaces{{kArm, Channel::X, 0}, {kArm, Channel::X, 5}}));
 }
 
@@ -66,7 +63,7 @@ TEST_F(KeyEdits, MovingIsThatOfAMap) {
   const auto below = [&](int count) { return int(random() % unsigned(count)); };
   for (int round = 0; round < 300; ++round) {
     std::map<int, double> keys;
-    Track start;
+    animation::Track start;
     for (int i = 0; i < 12; ++i) keys[below(30)] = below(100);
     for (const auto& [frame, value] : keys) start.push_back({frame, value});
     set(kArm, Channel::Angle, start);
@@ -82,16 +79,16 @@ TEST_F(KeyEdits, MovingIsThatOfAMap) {
     for (const KeyPlace& key : chosen) expected[key.frame + possible] = keys.at(key.frame);
     perform(moved_keys(project_, chosen, by));
     std::map<int, double> moved;
-    for (const Key& key : track(kArm, Channel::Angle)) moved[key.frame] = key.value;
+    for (const animation::Key& key : track(kArm, Channel::Angle)) moved[key.frame] = key.value;
     EXPECT_EQ(moved, expected) << "round " << round;
   }
 }
 
 TEST_F(KeyEdits, CopiesOfOneCellArePastedToAnother) {
-  set(kArm, Channel::X, {{3, 10}, {6, 20, Ease::Eased}});
+  set(kArm, Channel::X, {{3, 10}, {6, 20, animation::Ease::Eased}});
   const CopiedKeys copied = copied_keys(project_, {{kArm, Channel::X, 3}, {kArm, Channel::X, 6}});
   perform(pasted_keys(project_, copied, 50, {kLeg}));
-  EXPECT_EQ(track(kLeg, Channel::X), (Track{{50, 10}, {53, 20, Ease::Eased}}));
+  EXPECT_EQ(track(kLeg, Channel::X), (animation::Track{{50, 10}, {53, 20, animation::Ease::Eased}}));
   perform(pasted_keys(project_, copied, 20, {}));
   EXPECT_EQ(track(kArm, Channel::X).size(), 4U);
 }
@@ -102,13 +99,13 @@ TEST_F(KeyEdits, TheCameraTakesNoOpacity) {
   const CopiedKeys copied = copied_keys(project_, keys_at(project_, {kArm}, 3));
   EXPECT_EQ(copied.pieces.size(), 2U);
   perform(pasted_keys(project_, copied, 0, {animation::kCamera}));
-  EXPECT_EQ(project_.camera.tracks[std::size_t(Channel::X)], (Track{{0, 5}}));
+  EXPECT_EQ(project_.camera.tracks[std::size_t(Channel::X)], (animation::Track{{0, 5}}));
   EXPECT_TRUE(project_.camera.tracks[std::size_t(Channel::Opacity)].empty());
 }
 
 TEST_F(KeyEdits, HeldKeysLeaveEveryFrameAsItWas) {
-  set(kArm, Channel::X, {{0, 0, Ease::Straight}, {10, 100}});
-  set(kArm, Channel::Y, {{0, 7, Ease::Hold}, {10, 9}});
+  set(kArm, Channel::X, {{0, 0, animation::Ease::Straight}, {10, 100}});
+  set(kArm, Channel::Y, {{0, 7, animation::Ease::Hold}, {10, 9}});
   std::vector<animation::CellState> before;
   for (int frame = 0; frame < 20; ++frame) before.push_back(animation::state_at(*project_.find(kArm), frame));
   perform(held_keys(project_, {kArm}, channels_of(kArm), 4));
@@ -139,12 +136,12 @@ TEST_F(KeyEdits, KeysBeforeAndAfterAreFound) {
 }
 
 TEST_F(KeyEdits, WhatChangesOfATrackIsAllThatIsWritten) {
-  const Track from = {{0, 1}, {5, 2}, {9, 3}}, to = {{0, 1}, {6, 2}, {9, 3}};
+  const animation::Track from = {{0, 1}, {5, 2}, {9, 3}}, to = {{0, 1}, {6, 2}, {9, 3}};
   const auto change = track_change(kArm, Channel::X, from, to);
   ASSERT_TRUE(change);
   EXPECT_EQ(change->from, 5);
   EXPECT_EQ(change->to, 6);
-  EXPECT_EQ(change->keys, (Track{{6, 2}}));
+  EXPECT_EQ(change->keys, (animation::Track{{6, 2}}));
   EXPECT_FALSE(track_change(kArm, Channel::X, from, from));
 }
 

@@ -8,9 +8,6 @@
 namespace icome::ui {
 namespace {
 
-using animation::Key;
-using animation::Track;
-
 class TimelineTest : public CutoutStage {
  protected:
   TimelineTest() {
@@ -21,11 +18,13 @@ class TimelineTest : public CutoutStage {
     document().select({});
   }
 
-  void set(const char* name, Channel channel, const Track& track) {
+  void set(const char* name, Channel channel, const animation::Track& track) {
     ASSERT_TRUE(document().perform(
         animation::ProjectEdit{animation::ChangeKeys{cell(name).id, channel, 0, 1000, track}}));
   }
-  const Track& track(const char* name, Channel channel) { return cell(name).tracks[std::size_t(channel)]; }
+  const animation::Track& track(const char* name, Channel channel) {
+    return cell(name).tracks[std::size_t(channel)];
+  }
   Timeline& timeline() { return window_->timeline(); }
   QWidget& port() { return *timeline().viewport(); }
   const TimeRow& row(const char* name) {
@@ -73,8 +72,8 @@ TEST_F(TimelineTest, AFrameIsFoundWhereItStandsAtEachZoom) {
 
 TEST_F(TimelineTest, AKeyIsDraggedWithAllChannelsOfItsFrame) {
   drag_on(port(), key_place("boat", 10), key_place("boat", 14));
-  EXPECT_EQ(track("boat", Channel::X), (Track{{0, 640}, {14, 700}, {20, 800}}));
-  EXPECT_EQ(track("boat", Channel::Angle), (Track{{14, 0.5}}));
+  EXPECT_EQ(track("boat", Channel::X), (animation::Track{{0, 640}, {14, 700}, {20, 800}}));
+  EXPECT_EQ(track("boat", Channel::Angle), (animation::Track{{14, 0.5}}));
   EXPECT_EQ(document().keys().size(), 2U);
   document().undo();
   EXPECT_EQ(track("boat", Channel::X)[1].frame, 10);
@@ -84,7 +83,7 @@ TEST_F(TimelineTest, KeysAreSelectedWithinAFrameAndDeleted) {
   drag_on(port(), key_place("boat", 8) - QPointF(0, 9), key_place("boat", 22) + QPointF(0, 9));
   EXPECT_EQ(document().keys().size(), 3U);
   action("key.delete")->trigger();
-  EXPECT_EQ(track("boat", Channel::X), (Track{{0, 640}}));
+  EXPECT_EQ(track("boat", Channel::X), (animation::Track{{0, 640}}));
   EXPECT_TRUE(track("boat", Channel::Angle).empty());
 }
 
@@ -101,7 +100,7 @@ TEST_F(TimelineTest, KeysAreCopiedAndPastedAtThePresentFrame) {
   document().go_to(30);
   action("edit.paste")->trigger();
   ASSERT_EQ(track("boat", Channel::X).size(), 4U);
-  EXPECT_EQ(track("boat", Channel::X)[3], (Key{30, 700}));
+  EXPECT_EQ(track("boat", Channel::X)[3], (animation::Key{30, 700}));
   EXPECT_EQ(track("boat", Channel::Angle).size(), 2U);
 }
 
