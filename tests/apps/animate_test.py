@@ -84,6 +84,18 @@ class Animate(unittest.TestCase):
         self.assertEqual(told["missing"], [])
         self.assertIn("square", animate(project).stdout)
 
+    def test_pictures_are_found_from_wherever_it_runs_and_is_saved(self):
+        project = self.small_project()
+        self.assertEqual(cell_in(project, "square")["pictures"], ["square.svg"])
+        (self.folder / "below").mkdir()
+        copy = self.folder / "below" / "copy.cutout"
+        animate(project, "--save", copy, cwd="/")
+        self.assertEqual(cell_in(copy, "square")["pictures"], ["../square.svg"])
+        self.assertEqual(animate_json(copy)["missing"], [])
+        script = self.script({"op": "add-cell", "pictures": "square.svg"})
+        animate("new", "--apply", script, "--save", self.folder / "other.cutout", cwd="/")
+        self.assertEqual(animate_json(self.folder / "other.cutout")["missing"], [])
+
     def test_draws_what_the_keys_say(self):
         project = self.small_project()
         animate(project, "--out", self.folder / "shot%02d.png")

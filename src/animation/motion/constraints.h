@@ -67,7 +67,9 @@ Solution solved(const Project& project, const CellStates& wished, std::span<cons
 
 /// The states of all cells and of the camera at a frame, by their keys and the constraints. As continuous as
 /// the tracks are: between two keys a cell on a path goes along it from where one puts it to where the next
-/// does (the shorter way round where the path is closed), and is not thrown to another branch on its way.
+/// does (the shorter way round where the path is closed), and is not thrown to another branch on its way. Two
+/// cases can jump: points that keys drive through each other while a least distance keeps them apart, and a
+/// cell that keys and a distance pull far off the corner of a path.
 CellStates states_at(const Project& project, double frame);
 
 }  // namespace icome::animation

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "animation/motion/cell_point.h"
-#include "animation/motion/small_system.h"
+#include "animation/motion/pushes.h"
 
 namespace icome::animation {
 namespace {
@@ -13,6 +13,7 @@ constexpr int kSteps = 40;
 constexpr int kSlowSteps = 4;           // that gain little, after which a compromise is taken
 constexpr double kKept = 1e-7;          // px
 constexpr double kNoWay = 1e-9;         // px, below which a direction is not told
+constexpr double kNear = 4;             // violations, within which others may come to be violated
 constexpr double kLeastDamping = 1e-6;  // of squares of freedoms' shares
 constexpr double kMostDamping = 1e3;
 constexpr double kLargestTurn = 0.5;  // rad, in one step
@@ -38,8 +39,13 @@ Relations::Relations(const Project& project, Rig& rig) : rig_(rig) {
       relation.other = rig_.find(limit->other);
       if (relation.other < 0) continue;
       relation.on_other = rig_.cells[std::size_t(relation.other)].offset_of(limit->on_other);
-      relation.least = std::max(limit->least, 0.0);
-      relation.greatest = std::max(limit->greatest, relation.least);
+      const double least = std::max(limit->least, 0.0), greatest = std::max(limit->greatest, least);
+      relation.is_even = least == greatest;
+      relation.distance = greatest;
+      add(relation, limit->one, limit->on_one);
+      if (relation.is_even || least == 0) continue;
+      relation.distance = least;
+      relation.is_least = true;
       add(relation, limit->one, limit->on_one);
     } else if (const auto* guide = std::get_if<PathGuide>(&constraint.what)) {
       relation.kind = Relation::Kind::Path;
@@ -170,10 +176,8 @@ void Relations::measure(Relation& relation) const {
   const Vector2 apart = one - rig_.cells[std::size_t(relation.other)].point(relation.on_other);
   const double distance = apart.norm();
   const Vector2 along = distance > kNoWay ? Vector2(apart / distance) : Vector2(1, 0);
-  const bool is_short = distance - relation.least < relation.greatest - distance;
-  relation.is_even = relation.least == relation.greatest;
-  relation.excess = is_short ? relation.least - distance : distance - relation.greatest;
-  relation.normal = is_short ? Vector2(-along) : along;
+  relation.excess = relation.is_least ? relation.distance - distance : distance - relation.distance;
+  relation.normal = relation.is_least ? Vector2(-along) : along;
 }
 
 double Relations::measure(const Island& island) {
@@ -245,17 +249,8 @@ void Relations::restore(const Island& island, const Pose& pose) {
   for (const int k : island.relations) relations_[std::size_t(k)].s = *value++;
 }
 
-/// Those that are not kept count, and those that did, so that one does not undo another.
-void Relations::choose(const Island& island) {
-  for (const int k : island.relations) {
-    Relation& relation = relations_[std::size_t(k)];
-    relation.counts = relation.is_even || relation.counts || relation.excess > 0;
-  }
-}
-
 void Relations::keep(const Island& island, bool with_hands) {
   weigh(island, with_hands);
-  for (const int k : island.relations) relations_[std::size_t(k)].counts = false;
   double squares = measure(island);
   double damping = kLeastDamping;
   int slow = 0;
@@ -264,7 +259,6 @@ void Relations::keep(const Island& island, bool with_hands) {
     const double squares_before = squares;
     bool has_moved = false;
     for (std::size_t from = 0; from < count; from += kRowsAtOnce) {
-      choose(island);
       const Pose pose = pose_of(island);
       if (!step(island, from, std::min(count, from + kRowsAtOnce), damping)) continue;
       const double now = measure(island);
@@ -316,16 +310,24 @@ void Relations::add_row(int cell, const Vector2& offset, const Vector2& along, d
 }
 
 bool Relations::step(const Island& island, std::size_t from, std::size_t to, double damping) {
+  double violation = 0;
+  for (const int k : island.relations) violation += relations_[std::size_t(k)].violation();
   std::vector<int> rows;
-  for (std::size_t k = from; k < to; ++k)
-    if (relations_[std::size_t(island.relations[k])].counts) rows.push_back(island.relations[k]);
+  for (std::size_t k = from; k < to; ++k) {
+    const Relation& relation = relations_[std::size_t(island.relations[k])];
+    if (relation.is_even || relation.excess > -kNear * violation) rows.push_back(island.relations[k]);
+  }
   const std::size_t freedoms = island.freedoms;
   rows_.assign(rows.size() * freedoms, 0);
+  touched_.resize(std::max(touched_.size(), rows.size()));
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Relation& relation = relations_[std::size_t(rows[r])];
     double* row = &rows_[r * freedoms];
     add_row(relation.one, relation.on_one, relation.normal, row);
     if (relation.other >= 0) add_row(relation.other, relation.on_other, -relation.normal, row);
+    touched_[r].clear();
+    for (std::size_t f = 0; f < freedoms; ++f)
+      if (row[f] != 0) touched_[r].push_back(f);
   }
   // What would turn past a limit is kept out.
   free_ = weights_;
@@ -358,48 +360,35 @@ bool Relations::block_limits(const Island& island) {
 /// Changes of freedoms (by_) that keep relations to first order, by as little as can be; false: none can.
 bool Relations::solve_rows(const std::vector<int>& rows, std::size_t freedoms, double damping) {
   const std::size_t count = rows.size();
-  weighted_.resize(count * freedoms);
+  weighted_.assign(count * freedoms, 0);
   products_.resize(count * count);
   for (std::size_t a = 0; a < count; ++a) {
     const double* row = &rows_[a * freedoms];
     double* weighted = &weighted_[a * freedoms];
-    for (std::size_t f = 0; f < freedoms; ++f) weighted[f] = free_[f] * row[f];
+    for (const std::size_t f : touched_[a]) weighted[f] = free_[f] * row[f];
     for (std::size_t b = 0; b <= a; ++b) {
       double sum = 0;
-      for (std::size_t f = 0; f < freedoms; ++f) sum += weighted[f] * rows_[b * freedoms + f];
+      for (const std::size_t f : touched_[b]) sum += weighted[f] * rows_[b * freedoms + f];
       products_[a * count + b] = products_[b * count + a] = sum;
     }
   }
-  std::vector<std::size_t> taken(count);
-  std::iota(taken.begin(), taken.end(), 0);
-  std::erase_if(taken, [&](std::size_t r) { return products_[r * count + r] < kImmovable; });
-  // Pushes that would pull are left out, those of relations that would be kept without.
-  while (!taken.empty()) {
-    const std::size_t n = taken.size();
-    matrix_.resize(n * n);
-    pushes_.resize(n);
-    for (std::size_t a = 0; a < n; ++a) {
-      for (std::size_t b = 0; b < n; ++b) matrix_[a * n + b] = products_[taken[a] * count + taken[b]];
-      matrix_[a * n + a] += damping;
-      pushes_[a] = -relations_[std::size_t(rows[taken[a]])].excess;
-    }
-    solve_symmetric(matrix_, pushes_);
-    std::vector<std::size_t> right;
-    for (std::size_t a = 0; a < n; ++a)
-      if (relations_[std::size_t(rows[taken[a]])].is_even || pushes_[a] <= 0) right.push_back(taken[a]);
-    if (right.size() == n) break;
-    taken = std::move(right);
+  std::vector<PushRow> push_rows(count);
+  for (std::size_t a = 0; a < count; ++a) {
+    const Relation& relation = relations_[std::size_t(rows[a])];
+    push_rows[a] = {relation.excess, relation.is_even, products_[a * count + a] > kImmovable};
+    products_[a * count + a] += damping;
   }
-  for (const int k : rows) relations_[std::size_t(k)].counts = false;
+  const std::vector<double> pushes = pushes_of(products_, push_rows);
   by_.assign(freedoms, 0);
-  for (std::size_t a = 0; a < taken.size(); ++a) {
-    Relation& relation = relations_[std::size_t(rows[taken[a]])];
-    relation.counts = true;
-    relation.waits = false;
-    const double* weighted = &weighted_[taken[a] * freedoms];
-    for (std::size_t f = 0; f < freedoms; ++f) by_[f] += weighted[f] * pushes_[a];
+  bool is_pushed = false;
+  for (std::size_t a = 0; a < count; ++a) {
+    if (!push_rows[a].moves || pushes[a] == 0) continue;
+    is_pushed = true;
+    relations_[std::size_t(rows[a])].waits = false;
+    const double* weighted = &weighted_[a * freedoms];
+    for (const std::size_t f : touched_[a]) by_[f] += weighted[f] * pushes[a];
   }
-  return !taken.empty();
+  return is_pushed;
 }
 
 void Relations::move(const Island& island) {

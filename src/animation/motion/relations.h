@@ -15,7 +15,8 @@ struct Relation {
   Kind kind = Kind::Distance;
   int one = -1, other = -1;  ///< cells of the rig; no other with paths and axes
   Vector2 on_one = Vector2::Zero(), on_other = Vector2::Zero();  ///< from the pivots, at angle 0
-  double least = 0, greatest = 0;                                ///< px
+  double distance = 0;                                           ///< px, the greatest, or
+  bool is_least = false;                                         ///< the least one
   Vector2 through = Vector2::Zero();                             ///< of an axis
   int way = -1;                                                  ///< of a path
   double s = 0;                                                  ///< where its bead is
@@ -27,7 +28,6 @@ struct Relation {
   Vector2 normal = Vector2(1, 0);
   double excess = 0;    ///< to be brought to 0; below 0 where a distance is kept with room to spare
   bool is_even = true;  ///< it is to be 0, not just 0 or below
-  bool counts = false;  ///< in the next step
 
   double violation() const { return is_even ? std::abs(excess) : std::max(excess, 0.0); }
 };
@@ -66,7 +66,6 @@ class Relations {
   double measure(const Island& island);
   void measure(Relation& relation) const;
   void follow_way(Relation& relation);
-  void choose(const Island& island);
   bool step(const Island& island, std::size_t from, std::size_t to, double damping);
   bool block_limits(const Island& island);
   bool solve_rows(const std::vector<int>& rows, std::size_t freedoms, double damping);
@@ -80,10 +79,11 @@ class Relations {
   std::vector<Way> ways_;
   std::vector<Relation> relations_;
   std::vector<Island> islands_;
-  std::vector<double> levers_;               // px, of each cell: how far what matters lies from its pin
-  std::vector<int> freedom_of_root_;         // by cell
-  std::vector<double> weights_, free_, by_;  // of an island's freedoms
-  std::vector<double> rows_, weighted_, products_, matrix_, pushes_;  // of a step
+  std::vector<double> levers_;                     // px, of each cell: how far what matters lies from its pin
+  std::vector<int> freedom_of_root_;               // by cell
+  std::vector<double> weights_, free_, by_;        // of an island's freedoms
+  std::vector<std::vector<std::size_t>> touched_;  // freedoms that a row is not 0 for
+  std::vector<double> rows_, weighted_, products_;  // of a step
 };
 
 }  // namespace icome::animation

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "animation/export/export_animation.h"
+#include "animation/files/file_names.h"
 #include "animation/files/project_file.h"
 #include "animation/motion/constraints.h"
 #include "animation/picture/project_disk.h"
@@ -53,8 +54,8 @@ class AnimateRun {
  public:
   explicit AnimateRun(const AnimateOptions& options)
       : options_(options),
-        pictures_(options.is_new ? std::filesystem::path(".") : options.project.parent_path(),
-                  {.reach = animation::Reach::Anywhere}) {}
+        folder_((options.is_new ? options.save : options.project).parent_path()),
+        pictures_(folder_, {.reach = animation::Reach::Anywhere}) {}
 
   int run() {
     const auto project = read();
@@ -70,9 +71,7 @@ class AnimateRun {
     }
     const bool good = report_.outcome.errors.empty() || options_.keep_going;
     if (good && !options_.save.empty()) {
-      const auto saved = animation::write_project_file(runner_->project(), options_.save);
-      if (!saved) return animate_failed(saved.error().message);
-      report_.saved = true;
+      if (const auto saved = save(); !saved) return animate_failed(saved.error().message);
     }
     if (good && !options_.out.empty()) {
       if (const auto written = render(); !written) {
@@ -114,6 +113,17 @@ class AnimateRun {
     for (const EditError& error : report_.outcome.errors)
       tell(fmt::format("{}:{}: {}", options_.apply.string(), error.line, error.message));
     return 0;
+  }
+
+  base::Result<void> save() {
+    // In another folder the same files have other names.
+    animation::Project project = runner_->project();
+    const std::filesystem::path to = options_.save.parent_path();
+    const auto renamed = apply_edit(project, animation::renamed_files(project, folder_, to));
+    if (!renamed) return tl::unexpected(renamed.error());
+    const auto saved = animation::write_project_file(project, options_.save);
+    report_.saved = saved.has_value();
+    return saved;
   }
 
   base::Result<void> render() {
@@ -160,6 +170,7 @@ class AnimateRun {
   }
 
   const AnimateOptions& options_;
+  std::filesystem::path folder_;  // from which names of files count
   animation::CellPictures pictures_;
   std::optional<animation::AnimationRunner> runner_;
   AnimateReport report_;

@@ -138,8 +138,8 @@ TEST(Relations, TurnALimbRatherThanMoveWhatItHangsOn) {
   // A limb's end is tied to a ball, which is taken away: the limb turns towards it.
   Project project = limb({0, 100}, false);
   for (int k = 0; k < 8; ++k) {  // a heavy body
-    project.layers[0].cells.push_back(cell(std::uint64_t(10 + k)));
-    constrain(project, Joint{id_of(0), CellId{std::uint64_t(10 + k)}, {0, 0}, {0, 0}, {}});
+    project.layers[0].cells.push_back(cell(std::uint64_t(k) + 10));
+    constrain(project, Joint{id_of(0), CellId{std::uint64_t(k) + 10}, {0, 0}, {0, 0}, {}});
   }
   project.layers[0].cells.push_back(cell(50, {110, 0}));
   constrain(project, DistanceLimit{id_of(1), CellId{50}, {100, 0}, {0, 0}, 0, 20});

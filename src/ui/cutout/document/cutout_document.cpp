@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "animation/files/file_names.h"
 #include "animation/picture/project_disk.h"
 #include "ui/actions/recent_files.h"
 
@@ -23,7 +24,6 @@ using animation::Project;
 using animation::ProjectEdit;
 
 /// Pictures may lie beside the project's folder, but names do not climb further than this.
-constexpr int kMostStepsUp = 3;
 
 fs::path folder_of_unsaved() {
   return path_of(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation)) / "unsaved-animations";
@@ -41,14 +41,6 @@ bool is_in_use(const fs::path& kept) {
   int process = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), process);
   return error == std::errc() && process > 0 && (::kill(process, 0) == 0 || errno == EPERM);
-}
-
-/// The name that a file has in a project of that folder.
-std::string name_from(const fs::path& folder, const fs::path& file) {
-  const fs::path whole = fs::absolute(file).lexically_normal();
-  const fs::path relative = whole.lexically_relative(fs::absolute(folder).lexically_normal());
-  const auto up = std::ranges::count(relative, fs::path(".."));
-  return relative.empty() || up > kMostStepsUp ? whole.string() : relative.generic_string();
 }
 
 }  // namespace
@@ -245,7 +237,8 @@ void CutoutDocument::redo() {
 fs::path CutoutDocument::folder() const { return pictures_->folder(); }
 
 std::string CutoutDocument::name_in_project(const fs::path& file) const {
-  return file_.empty() ? fs::absolute(file).lexically_normal().string() : name_from(folder(), file);
+  return file_.empty() ? fs::absolute(file).lexically_normal().string()
+                       : animation::name_from(folder(), file);
 }
 
 bool CutoutDocument::is_modified() const { return !(saved_ == project()); }
@@ -275,31 +268,9 @@ base::Result<void> CutoutDocument::recover(const fs::path& kept) {
   return {};
 }
 
-/// Changes the names of files so that they are the same files from another folder.
-ProjectEdit CutoutDocument::renamed_for(const fs::path& to) const {
-  const fs::path from = folder();
-  const auto renamed = [&](const std::string& name) {
-    const auto hash = name.rfind(".icome#");
-    const std::size_t end = hash == std::string::npos ? name.size() : hash + 6;
-    return name_from(to, from / name.substr(0, end)) + name.substr(end);
-  };
-  ProjectEdit edit;
-  for (const Layer& layer : project().layers)
-    for (const Cell& cell : layer.cells) {
-      animation::CellLook look = animation::look_of(cell);
-      std::ranges::transform(look.pictures, look.pictures.begin(), renamed);
-      if (look.pictures != cell.pictures) edit.push_back(animation::ChangeCell{cell.id, std::move(look)});
-    }
-  if (auto sound = project().sound) {
-    sound->file = renamed(sound->file);
-    if (sound != project().sound) edit.push_back(animation::ChangeSound{sound});
-  }
-  return edit;
-}
-
 base::Result<void> CutoutDocument::save(const fs::path& file) {
   const fs::path folder = fs::absolute(file).parent_path();
-  const ProjectEdit names = renamed_for(folder);
+  const ProjectEdit names = animation::renamed_files(this->project(), this->folder(), folder);
   Project project = this->project();
   if (const auto applied = animation::apply_edit(project, names); !applied)
     return tl::unexpected(applied.error());

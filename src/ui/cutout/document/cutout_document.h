@@ -114,7 +114,6 @@ class CutoutDocument {
   void begin_journal(std::uint64_t length);
   void keep_for_recovery();
   void take_down(const std::vector<animation::Hold>& holds);
-  animation::ProjectEdit renamed_for(const std::filesystem::path& folder) const;
   void forget_gone();
   void finish();
 
