@@ -87,9 +87,51 @@ void write_canonical(const TomlNode& node, std::string& out) {
   }
 }
 
+/// One past the text between quotes that begins at `at`; `lines` counts its ends of lines. A text of one line
+/// that is not closed ends with its line.
+std::size_t end_of_quoted(std::string_view text, std::size_t at, std::size_t& lines) {
+  const char quote = text[at];
+  const std::size_t length = text.substr(at, 3) == std::string(3, quote) ? 3 : 1;
+  const std::string mark(length, quote);
+  for (at += length; at < text.size(); ++at) {
+    if (text.substr(at, length) == mark) return at + length;
+    if (text[at] == '\n' && length == 1) return at;
+    if (text[at] == '\\' && quote == '"') ++at;
+    if (at < text.size() && text[at] == '\n') ++lines;
+  }
+  return text.size();
+}
+
+/// The line of a key with more than kMostParts parts, on which the library's recursion would end the program;
+/// 0 where there is none. Dots of text and of comments count for nothing.
+std::size_t line_of_deep_key(std::string_view text) {
+  constexpr int kMostParts = 100;
+  constexpr std::string_view kEndsOfKeys = "=,[]{}\n";
+  std::size_t line = 1;
+  int dots = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const char letter = text[at];
+    if (letter == '"' || letter == '\'') {
+      at = end_of_quoted(text, at, line);
+      continue;
+    }
+    if (letter == '#') {
+      at = std::min(text.find('\n', at), text.size());
+      continue;
+    }
+    if (letter == '.' && ++dots > kMostParts) return line;
+    if (kEndsOfKeys.find(letter) != std::string_view::npos) dots = 0;
+    line += letter == '\n' ? 1 : 0;
+    ++at;
+  }
+  return 0;
+}
+
 }  // namespace
 
 base::Result<TomlNode> parse_toml(std::string_view text, const std::string& source) {
+  if (const std::size_t line = line_of_deep_key(text); line != 0)
+    return base::fail(fmt::format("{}:{}: a key has more than 100 parts", source, line));
   const toml::parse_result parsed = toml::parse(text, source);
   if (parsed) return node_of(parsed.table());
   const Place place = place_of(parsed.error().source());

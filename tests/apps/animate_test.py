@@ -152,7 +152,7 @@ class Animate(unittest.TestCase):
         project = self.small_project()
         (self.folder / "square.svg").write_bytes(b"\x89PNG\r\n\x1a\nnothing")
         told = animate_json(project)
-        self.assertEqual([one["picture"] for one in told["missing"]], ["square.svg"])
+        self.assertEqual([one["file"] for one in told["missing"]], ["square.svg"])
         (self.folder / "square.svg").unlink()
         self.assertIn("square.svg", animate(project).stderr)
         animate(project, "--out", self.folder / "a.png", "--frames", "0")
@@ -307,8 +307,10 @@ class Record(unittest.TestCase):
                                         (cell, ["--record", "made", *known], "no triangle moves a cell"),
                                         (cell, ["--record", "made", *known, "--layer", "x"], "no layer 'x'")]:
             script.write_text(lines)
-            done = animate("new", "--apply", script, *arguments, cwd=self.folder, code=1)
+            done = animate("new", "--apply", script, "--save", "x.cutout", *arguments, cwd=self.folder, code=1)
             self.assertIn(words, done.stderr)
+        done = animate("new", "--apply", script, "--record", "made", *known, cwd=self.folder, code=1)
+        self.assertIn("--record needs --save", done.stderr)
 
 
 if __name__ == "__main__":

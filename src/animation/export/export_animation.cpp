@@ -32,6 +32,26 @@ Result<void> check_sides(const ExportOptions& options) {
                           options.height, kLargestStage));
 }
 
+/// Fails where a frame would be written over a picture or the sound that frames are made of.
+Result<void> check_spares_sources(const Project& project, const std::filesystem::path& folder,
+                                  const OutputNames& names, const FrameRange& range) {
+  std::vector<std::filesystem::path> sources;
+  if (project.sound) sources.push_back(folder / project.sound->file);
+  for (const Layer& layer : project.layers)
+    for (const Cell& cell : layer.cells)
+      for (const std::string& picture : cell.pictures) sources.push_back(folder / picture);
+  for (int frame = range.first; frame <= range.last; ++frame) {
+    const std::filesystem::path file = names.of(frame);
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) continue;
+    for (const std::filesystem::path& source : sources)
+      if (std::filesystem::equivalent(file, source, error))
+        return fail(
+            fmt::format("{}: is a file that the animation is made of; choose another name", file.string()));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<ExportReport> export_animation(const Project& project, const StatesAt& states_at,
@@ -39,9 +59,12 @@ Result<ExportReport> export_animation(const Project& project, const StatesAt& st
                                       const ExportOptions& options) {
   if (const auto good = check_range(project, options.range); !good) return tl::unexpected(good.error());
   if (const auto good = check_sides(options); !good) return tl::unexpected(good.error());
-  const int frames = options.range.value_or(FrameRange{0, project.stage.length - 1}).count();
+  const FrameRange range = options.range.value_or(FrameRange{0, project.stage.length - 1});
+  const int frames = range.count();
   const auto names = output_names(out, frames);
   if (!names) return tl::unexpected(names.error());
+  if (const auto good = check_spares_sources(project, pictures.folder(), *names, range); !good)
+    return tl::unexpected(good.error());
   FrameMaker maker(project, states_at, pictures, options,
                    options.background || names->format == OutputFormat::Mp4);
   ExportReport report;

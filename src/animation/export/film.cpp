@@ -124,7 +124,9 @@ Result<void> feed_frames(FrameMaker& maker, Ffmpeg& ffmpeg, double begin, double
   for (int i = 0; i < range.count(); ++i) {
     const double part = begin + (end - begin) * i / range.count();
     if (!maker.goes_on(part)) return stopped_export();
-    const std::string bytes = as_fed(maker.draw(range.first + i), maker.has_background());
+    const auto drawn = maker.draw(range.first + i);
+    if (!drawn) return tl::unexpected(drawn.error());
+    const std::string bytes = as_fed(**drawn, maker.has_background());
     if (auto fed = ffmpeg.feed(bytes, [&] { return maker.goes_on(part); }); !fed) return fed;
   }
   return ffmpeg.finish([&] { return maker.goes_on(end); });

@@ -27,14 +27,16 @@ Affine2 FrameMaker::view(const CellStates& states) const {
   return picture_from_stage(project_, states, options, asked_width_, asked_height_);
 }
 
-const Pixels& FrameMaker::draw(int frame) {
+base::Result<const Pixels*> FrameMaker::draw(int frame) {
   if (pixels_.width != width_ || pixels_.height != height_) pixels_ = Pixels(width_, height_);
   const CellStates shown = states(frame);
   FrameOptions options;
   options.backdrop = background_ ? Backdrop::Everywhere : Backdrop::None;
   options.picture_from_stage = view(shown);
   draw_frame(project_, shown, pictures_, options, pixels_);
-  return pixels_;
+  // How far a drawing gets in its time depends on the machine, and frames must not.
+  if (pictures_.drawing_fault()) return base::fail(*pictures_.drawing_fault());
+  return &pixels_;
 }
 
 tl::unexpected<base::Error> stopped_export() {

@@ -23,8 +23,8 @@ class FrameMaker {
   bool make_even();
 
   Affine2 view(const CellStates& states) const;
-  /// The frame's pixels, valid until the next one.
-  const Pixels& draw(int frame);
+  /// The frame's pixels, valid until the next one. Fails where a picture could not be drawn in its time.
+  base::Result<const Pixels*> draw(int frame);
   /// Tells how far the export is; false where it is to stop.
   bool goes_on(double part) const { return !options_.progress || options_.progress(part); }
 

@@ -67,7 +67,9 @@ Result<std::string> file_of_frame(FrameMaker& maker, OutputFormat format, int fr
     return svg_frame(maker.project(), states, pictures, maker.view(states), maker.width(), maker.height(),
                      maker.has_background());
   }
-  const auto png = charts::encode_png(image_of(maker.draw(frame)));
+  const auto drawn = maker.draw(frame);
+  if (!drawn) return tl::unexpected(drawn.error());
+  const auto png = charts::encode_png(image_of(**drawn));
   if (!png) return tl::unexpected(png.error());
   return std::string(png->begin(), png->end());
 }

@@ -33,6 +33,7 @@ class ProjectReader {
       : problems_(problems), keys_(tree, "the animation", kOneLanguage, problems) {}
 
   Project read() {
+    keys_.require("cutout", "cutout = 1, the version of the format");
     if (keys_.whole("cutout", kFormat, 1, kGreatestNumber) > kFormat)
       problems_.add(keys_.place_of("cutout"), "the file was written by a later version of ICOME.");
     if (auto stage = table("stage", "the stage")) {

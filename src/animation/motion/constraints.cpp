@@ -75,8 +75,6 @@ class Holding {
       if (found == chain.end() || found == chain.begin()) continue;
       auto from = found;
       while (from != chain.begin() && !hold_of_[std::size_t(*(from - 1))]) --from;
-      const bool has_held = from != chain.begin();
-      if (!has_held && chain.size() > 2) ++from;
       return {from, found + 1};
     }
     return {};

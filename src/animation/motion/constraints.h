@@ -46,10 +46,9 @@ struct Solution {
 /// - A cell of a chain, but not its first: those between the last held one before it, or the first, and the
 ///   held one turn at their joints too, so that its pivot comes to the wish's place, and as far as then is
 ///   free, its angle to the wish's; pulled, so that the point comes to the hand. The first cell of the chain
-///   stays as it is; only in a chain of two it turns, at its own joint or about its pivot, as otherwise
-///   nothing could bend. Within the last hundredth of its reach a chain straightens ever more slowly and
-///   never quite (its knees would pop): there, and beyond, the end stays behind the hand by up to half a
-///   hundredth.
+///   turns at its own joint, or about its pivot where it hangs on none. Within the last hundredth of its
+///   reach a chain straightens ever more slowly and never quite (its knees would pop): there, and beyond, the
+///   end stays behind the hand by up to half a hundredth.
 ///
 /// `before` are the states of the frame before. With them nothing pops while hands move evenly: a cell on a
 /// path slides from where it was and does not jump to another branch that comes near, a chain bends on from

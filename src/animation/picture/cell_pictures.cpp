@@ -167,6 +167,7 @@ Result<RasterPointer> CellPictures::raster(const std::string& picture, double sc
     auto drawn = found.svg->drawn(sides.width, sides.height, options_.seconds_limit);
     if (!drawn) {
       found.faults[step] = drawn.error().message;
+      if (!drawing_fault_) drawing_fault_ = drawn.error().message;
       return tl::unexpected(drawn.error());
     }
     made->pixels = std::move(*drawn);
@@ -186,7 +187,14 @@ Result<CellPictures::Embedded> CellPictures::embedded(const std::string& picture
   return Embedded{"image/png", std::string(png->begin(), png->end())};
 }
 
+std::optional<std::string> CellPictures::drawing_fault(const std::string& picture) const {
+  const auto found = entries_.find(picture);
+  if (found == entries_.end() || found->second->faults.empty()) return std::nullopt;
+  return found->second->faults.begin()->second;
+}
+
 bool CellPictures::refresh() {
+  drawing_fault_.reset();
   const std::size_t before = entries_.size();
   for (auto at = entries_.begin(); at != entries_.end();) {
     const Entry& each = *at->second;
@@ -206,10 +214,11 @@ std::vector<PictureProblem> picture_problems(const Project& project, CellPicture
     for (const Cell& cell : layer.cells)
       for (const std::string& picture : cell.pictures) {
         const auto size = pictures.size(picture);
-        if (size) continue;
+        const auto fault = pictures.drawing_fault(picture);
+        if (size && !fault) continue;
         PictureProblem& problem = problems[picture];
         problem.picture = picture;
-        problem.message = size.error().message;
+        problem.message = fault ? *fault : size.error().message;
         if (problem.cells.empty() || problem.cells.back() != cell.id) problem.cells.push_back(cell.id);
       }
   std::vector<PictureProblem> list;

@@ -63,6 +63,10 @@ class CellPictures {
   /// The picture for being shown `scale` times as large: of the sizes 1, 1/sqrt 2, 1/2, ... the next that is
   /// no smaller. SVG is drawn that much larger, too, up to sides of kLargestDrawnSvg. Fails as size() does.
   base::Result<RasterPointer> raster(const std::string& picture, double scale);
+  /// Why a picture that could be read could not be drawn: the first one's sentence; none where all could.
+  const std::optional<std::string>& drawing_fault() const { return drawing_fault_; }
+  /// The same of one picture.
+  std::optional<std::string> drawing_fault(const std::string& picture) const;
   /// The bytes of a picture for being put into other files, and what they are: "image/png" (a JPEG, too, is
   /// made one) or "image/svg+xml". Fails as size() does.
   struct Embedded {
@@ -88,6 +92,7 @@ class CellPictures {
   std::filesystem::path folder_;
   CellPictureOptions options_;
   std::unordered_map<std::string, std::unique_ptr<Entry>> entries_;
+  std::optional<std::string> drawing_fault_;
   std::size_t kept_ = 0;     // bytes
   std::uint64_t asked_ = 0;  // number of questions so far
 };

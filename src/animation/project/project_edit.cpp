@@ -48,8 +48,14 @@ std::string complaint_about_keys(Channel channel, const Track& keys, std::size_t
   return "";
 }
 
+bool is_one_line(const std::string& name) {
+  return std::ranges::none_of(name,
+                              [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7f; });
+}
+
 std::string complaint_about_look(const CellLook& look) {
   if (look.name.empty()) return "a cell needs a name";
+  if (!is_one_line(look.name)) return "a name is one line of text";
   if (look.pictures.size() > kMostPictures)
     return fmt::format("a cell has at most {} pictures", kMostPictures);
   for (const std::string& picture : look.pictures)
@@ -424,6 +430,7 @@ class ProjectApplying {
 
   base::Result<void> check_layer_name(LayerId id, const std::string& name) const {
     if (name.empty()) return base::fail("a layer needs a name");
+    if (!is_one_line(name)) return base::fail("a name is one line of text");
     for (const Layer& layer : project_.layers)
       if (layer.name == name && layer.id != id)
         return base::fail(fmt::format("there is a layer '{}' already", name));

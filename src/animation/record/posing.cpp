@@ -119,10 +119,14 @@ ProjectEdit Recording::finish(double tolerance) const {
       const bool is_new = cell.tracks[std::size_t(channel)].empty();
       if (stays && is_new && std::abs(track.front().value - channel_of(cell.rest, channel)) <= kSame)
         continue;
-      put_over(cell, channel, thinned(track, tolerance), edit);
+      put_over(cell, channel, thinned(track, value_tolerance(channel, tolerance)), edit);
     }
   }
   return edit;
+}
+
+double value_tolerance(Channel channel, double tolerance) {
+  return channel == Channel::X || channel == Channel::Y ? tolerance : tolerance / kRimDistance;
 }
 
 Track thinned(const Track& track, double tolerance) {

@@ -25,8 +25,8 @@ class Recording {
 
   bool is_empty() const { return cells_.empty(); }
   /// Overdub: for each cell that was moved, keys of place, angle and scale at each frame from the first to
-  /// the last at which it was moved take the place of what was there. Keys that lie within `tolerance` (px,
-  /// or rad of a turn, or a share of the scale) of the way between others are left out; 0: none are.
+  /// the last at which it was moved take the place of what was there. Keys that lie within
+  /// value_tolerance() of the way between others are left out; with a tolerance of 0 px none are.
   ProjectEdit finish(double tolerance) const;
 
  private:
@@ -34,6 +34,11 @@ class Recording {
   std::optional<LayerId> layer_;
   std::map<CellId, std::map<int, CellState>> cells_;
 };
+
+/// The change of a channel's value by which the rim of a cell moves by so many px, where it is kRimDistance
+/// from its pivot.
+double value_tolerance(Channel channel, double tolerance);
+inline constexpr double kRimDistance = 300;  // px
 
 /// The track without keys that lie within `tolerance` of the straight way between others, at all frames.
 Track thinned(const Track& track, double tolerance);

@@ -156,7 +156,8 @@ std::vector<AnimationTool> constraint_tools() {
       {{.name = "chain",
         .title = "Chain",
         .group = "Constraints",
-        .summary = "Lets joined cells bend where the last one is taken by a hand (inverse kinematics).",
+        .summary = "Lets joined cells bend where one of them is taken by a hand (inverse kinematics): the "
+                   "first one at its own joint, or about its pivot.",
         .parameters = {{.name = "cells",
                         .kind = ParameterKind::Texts,
                         .meaning = "each the parent of the next by a joint, the root first",

@@ -40,9 +40,8 @@ std::vector<AnimationTool> hand_tools() {
       {{.name = "map",
         .title = "Triangle Moves Cell",
         .group = "Hands",
-        .summary =
-            "Lets a triangle on the table move a cell: to where it lies, by as much as it is moved, or "
-            "whichever cell lies below it.",
+        .summary = "Lets a triangle on the table move a cell: to where it lies (an apex that points up is an "
+                   "upright cell), by as much as it is moved, or whichever cell lies below it.",
         .parameters = {text_parameter("triangle", "its id in the known list"),
                        {.name = "mode",
                         .kind = ParameterKind::Choice,

@@ -25,12 +25,21 @@ bool gives_a_value(const Arguments& arguments) {
   return std::ranges::any_of(kAllChannels, [&](Channel it) { return arguments.has(name_of(it)); });
 }
 
+bool hangs_on_a_joint(const Project& project, CellId cell) {
+  return std::ranges::any_of(project.constraints, [cell](const Constraint& constraint) {
+    const auto* joint = std::get_if<Joint>(&constraint.what);
+    return joint != nullptr && joint->child == cell;
+  });
+}
+
 base::Result<ProjectEdit> plan_key(Staging& staging, const Arguments& arguments) {
   const auto cell = cell_of(staging, arguments);
   if (!cell) return tl::unexpected(cell.error());
   const int frame = frame_of(arguments, "frame");
   const CellState now = state_at(**cell, frame);
   const bool all = !gives_a_value(arguments);
+  if (!all && (arguments.has("x") || arguments.has("y")) && hangs_on_a_joint(staging.project, (*cell)->id))
+    staging.note = fmt::format("'{}' hangs on a joint, from which its place follows", (*cell)->name);
   ProjectEdit edit;
   for (const Channel channel : kAllChannels) {
     std::optional<double> value = given_value(arguments, channel);

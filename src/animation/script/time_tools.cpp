@@ -68,15 +68,13 @@ base::Result<ProjectEdit> plan_stretch_keys(Staging& staging, const Arguments& a
 
 base::Result<ProjectEdit> plan_thin_keys(Staging& staging, const Arguments& arguments) {
   const double tolerance = arguments.number("tolerance");
-  constexpr double kPixelsOfAUnit = 100;  // a rad, or a whole of scale or opacity, moves a rim by so many px
   const auto ranges = ranges_of(staging, arguments);
   if (!ranges) return tl::unexpected(ranges.error());
   ProjectEdit edit;
   std::size_t before = 0, after = 0;
   for (const KeyRange& range : *ranges) {
     if (range.channel == Channel::Picture) continue;
-    const bool is_place = range.channel == Channel::X || range.channel == Channel::Y;
-    const Track kept = thinned(range.keys, is_place ? tolerance : tolerance / kPixelsOfAUnit);
+    const Track kept = thinned(range.keys, value_tolerance(range.channel, tolerance));
     before += range.keys.size();
     after += kept.size();
     edit.push_back(ChangeKeys{range.cell->id, range.channel, range.from, range.to, kept});

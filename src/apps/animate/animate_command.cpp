@@ -9,6 +9,7 @@
 #include "animation/files/project_file.h"
 #include "animation/motion/constraints.h"
 #include "animation/picture/project_disk.h"
+#include "animation/sound/sound_track.h"
 #include "apps/animate/animate_report.h"
 #include "apps/animate/recording_task.h"
 #include "apps/design/operation_list.h"
@@ -16,6 +17,7 @@
 #include "apps/status_line.h"
 #include "apps/terminal.h"
 #include "base/parse_number.h"
+#include "io/file_ending.h"
 #include "ui/cutout/run_cutout.h"
 
 namespace icome::apps {
@@ -153,6 +155,10 @@ class AnimateRun {
 
   int finish() {
     report_.missing = animation::picture_problems(runner_->project(), pictures_);
+    if (const auto& sound = runner_->project().sound) {
+      const auto track = animation::read_track(folder_, *sound, 0, animation::Reach::Anywhere);
+      if (!track) report_.missing.push_back({sound->file, track.error().message, {}});
+    }
     if (!report_.written)
       for (const animation::PictureProblem& problem : report_.missing) tell(problem.message);
     const bool good = report_.outcome.errors.empty();
@@ -183,6 +189,11 @@ int run_animate(const AnimateOptions& options) {
   if (options.help_tools) return list_animation_tools(options);
   if (options.project.empty())
     return animate_failed("name a project: icome animate boat.cutout, or icome animate new");
+  if (!options.record.empty() && options.save.empty() && options.out.empty())
+    return animate_failed("--record needs --save, or the recording would be lost");
+  if (!options.save.empty() && io::ending_of(options.save).type != ".cutout")
+    return animate_failed(
+        fmt::format("--save {}: write a name that ends with .cutout", options.save.string()));
   if (options.open) {
     char name[] = "icome";
     char* arguments[] = {name, nullptr};

@@ -45,7 +45,7 @@ constexpr const char* kAnimateNotes =
     "\n"
     "JSON: {project, width, height, rate, frames, layers: [{name, visible, locked, cells: [{number,\n"
     "name, pictures, pivot, keys}]}], constraints: [{number, kind, cells}], triangles: [{id, mode,\n"
-    "cell}], sound, marks, missing: [{picture, message, cells}], recovered (edits that were not saved),\n"
+    "cell}], sound, marks, missing: [{file, message, cells}], recovered (edits that were not saved),\n"
     "operations, errors: [{line, op, message}], notes, recorded (with --record: {frames, dropped,\n"
     "keys}), saved (null when it was not), written (with --out: {out, first, last, width, height,\n"
     "files}), hash (equal for equal projects)}.\n"

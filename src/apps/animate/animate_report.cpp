@@ -143,7 +143,7 @@ std::string animate_json(const AnimateOptions& options, const Project& project, 
   for (const animation::PictureProblem& problem : report.missing) {
     Json cells = Json::array();
     for (const animation::CellId cell : problem.cells) cells.push_back(project.find(cell)->name);
-    json["missing"].push_back({{"picture", problem.picture}, {"message", problem.message}, {"cells", cells}});
+    json["missing"].push_back({{"file", problem.picture}, {"message", problem.message}, {"cells", cells}});
   }
   json["recovered"] = report.recovered;
   add_run(options, report, json);

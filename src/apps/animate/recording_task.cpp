@@ -174,6 +174,11 @@ base::Result<RecordedHands> record_hands(const AnimateOptions& options, animatio
   }
   auto project = with_named_cells(runner.project(), *known);
   if (!project) return tl::unexpected(project.error());
+  for (const animation::Mapping& mapping : project->mappings)
+    if (const animation::Layer* on = project->layer_of(mapping.cell);
+        on != nullptr && (on->locked || !on->visible))
+      tell(fmt::format("triangle '{}' moves nothing: layer '{}' is {}", mapping.triangle, on->name,
+                       on->locked ? "locked" : "hidden"));
   HandRecording recording(options, std::move(*project), std::move(*known), pictures, layer);
   auto recorded = recording.run();
   if (!recorded) return recorded;

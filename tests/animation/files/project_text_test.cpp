@@ -8,7 +8,7 @@ namespace icome::animation {
 namespace {
 
 std::string complaint_about(const std::string& text) {
-  const auto read = read_project(text, "boat.cutout");
+  const auto read = read_project("cutout = 1\n" + text, "boat.cutout");
   return read ? "" : read.error().message;
 }
 
@@ -44,7 +44,7 @@ TEST(ProjectText, ReadsBackEveryEdit) {
 }
 
 TEST(ProjectText, IsWrittenByHandEasily) {
-  const auto project = read_project(R"(
+  const auto project = read_project(R"(cutout = 1
 [stage]
 width = 640
 height = 480
@@ -76,17 +76,18 @@ keys.y = [[0, 240], [11, 260, "eased"]]
 TEST(ProjectText, TellsWhereItIsWrong) {
   EXPECT_EQ(
       complaint_about("[[layer]]\nid = 2\nname = \"a\"\n[[layer.cell]]\nid = 3\nname = \"x\"\nscal = 2\n"),
-      "boat.cutout:7:1: cell: there is no key 'scal'; did you mean 'scale'?");
+      "boat.cutout:8:1: cell: there is no key 'scal'; did you mean 'scale'?");
   EXPECT_EQ(complaint_about("[[layer]]\nid = 2\nname = \"a\"\n\n[[layer]]\nid = 2\nname = \"b\"\n"),
-            "boat.cutout:5:1: the number 2 is taken already, or no number.");
+            "boat.cutout:6:1: the number 2 is taken already, or no number.");
   EXPECT_EQ(complaint_about("[[layer]]\nid = 2\nname = \"a\"\n[[layer.cell]]\nid = 3\nname = \"x\"\n"
                             "keys.x = [[4, 1], [2, 5]]\n"),
-            "boat.cutout:7:19: keys: frame 2 does not come after frame 4.");
+            "boat.cutout:8:19: keys: frame 2 does not come after frame 4.");
   EXPECT_EQ(
       complaint_about("[[constraint]]\nid = 2\nkind = \"path\"\ncell = \"boat\"\nway = [[0,0],[1,0]]\n"),
-      "boat.cutout:4:8: cell: there is no cell 'boat'.");
-  EXPECT_EQ(complaint_about("cutout = 9\n"),
-            "boat.cutout:1:10: the file was written by a later version of ICOME.");
+      "boat.cutout:5:8: cell: there is no cell 'boat'.");
+  EXPECT_EQ(read_project("cutout = 9\n", "a").error().message,
+            "a:1:10: the file was written by a later version of ICOME.");
+  EXPECT_NE(read_project("", "a").error().message.find("cutout is missing"), std::string::npos);
   EXPECT_NE(complaint_about("[stage\n"), "");
   EXPECT_NE(complaint_about("[stage]\nwidth = nan\n"), "");
   EXPECT_NE(complaint_about("marks = [[0, \"a\"], [1]]\n"), "");
