@@ -28,9 +28,10 @@ double roughness(const Project& project, double first, double last, double apart
 }
 
 /// As a function of the frame has no jump: at ever shorter steps its largest step shrinks likewise.
-void expect_continuous(const Project& project, double last) {
-  const double coarse = roughness(project, 0, last, 1e-2);
-  EXPECT_LT(roughness(project, 0, last, 1e-3), 0.2 * coarse + 1e-6);
+void expect_continuous(const Project& project, double frames) {
+  const double last = frames / kSanitizerShare;
+  const double coarse = roughness(project, 0, last, 2e-2);
+  EXPECT_LT(roughness(project, 0, last, 2e-3), 0.2 * coarse + 1e-6);
 }
 
 TEST(StatesAt, AreThoseOfTheKeysWithoutConstraints) {
