@@ -54,7 +54,7 @@ inline Project limb(std::initializer_list<double> lengths, bool is_chain) {
   double before = 0, along = 0;
   for (const double length : lengths) {
     cell_of(project, number).rest.place = {along, 0};
-    chain.cells.push_back(id_of(number));
+    if (number > 0 || lengths.size() == 2) chain.cells.push_back(id_of(number));
     if (number > 0) constrain(project, Joint{id_of(number - 1), id_of(number), {before, 0}, {0, 0}, {}});
     along += length;
     before = length;
