@@ -243,14 +243,14 @@ std::string CutoutDocument::name_in_project(const fs::path& file) const {
 
 bool CutoutDocument::is_modified() const { return !(saved_ == project()); }
 
-base::Result<std::string> CutoutDocument::open(const fs::path& file) {
+base::Result<std::string> CutoutDocument::open(fs::path file) {
   auto read = animation::read_project_file(file);
   if (!read) return tl::unexpected(read.error());
   close();
   const fs::path folder = fs::absolute(file).parent_path();
   take(std::move(read->project), folder);
   if (read->recovered > 0) saved_ = Project();
-  file_ = file;
+  file_ = std::move(file);
   begin_journal(read->journal_length);
   changed_(CutoutChange::Project);
   return std::move(read->note);
@@ -268,7 +268,7 @@ base::Result<void> CutoutDocument::recover(const fs::path& kept) {
   return {};
 }
 
-base::Result<void> CutoutDocument::save(const fs::path& file) {
+base::Result<void> CutoutDocument::save(fs::path file) {
   const fs::path folder = fs::absolute(file).parent_path();
   const ProjectEdit names = animation::renamed_files(this->project(), this->folder(), folder);
   Project project = this->project();
@@ -288,7 +288,7 @@ base::Result<void> CutoutDocument::save(const fs::path& file) {
     if (!names.empty()) (void)runner_->perform(names);
     saved_ = std::move(project);
   }
-  file_ = file;
+  file_ = std::move(file);
   begin_journal(0);
   finish();
   return {};

@@ -94,11 +94,11 @@ class CutoutDocument {
   const std::filesystem::path& file() const { return file_; }
   bool is_modified() const;
   /// Replaces the project by a file's, with what its journal adds. Gives a note on that, mostly empty.
-  base::Result<std::string> open(const std::filesystem::path& file);
+  base::Result<std::string> open(std::filesystem::path file);
   /// Takes an unsaved animation from where it was kept for a crash, as one without a file.
   base::Result<void> recover(const std::filesystem::path& kept);
   /// Writes the project; the file is then the document's own, and names of pictures count from its folder.
-  base::Result<void> save(const std::filesystem::path& file);
+  base::Result<void> save(std::filesystem::path file);
   /// Ends the journal: all is saved, or given up.
   void close();
 

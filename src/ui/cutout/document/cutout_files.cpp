@@ -90,7 +90,7 @@ void CutoutFiles::choose_and_open() {
   });
 }
 
-void CutoutFiles::save_to(const std::filesystem::path& file) {
+void CutoutFiles::save_to(std::filesystem::path file) {
   const auto then = std::exchange(then_, nullptr);
   if (const auto saved = document_.save(file); !saved) return fail(saved.error().message);
   used_(file);

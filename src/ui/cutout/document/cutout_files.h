@@ -57,7 +57,7 @@ class CutoutFiles {
   bool is_exporting() const { return bool(job_); }
 
  private:
-  void save_to(const std::filesystem::path& file);
+  void save_to(std::filesystem::path file);
   void fail(const std::string& why);
   void tell_exported(const base::Result<animation::ExportReport>& report);
   void add_cells(const std::vector<std::filesystem::path>& files, bool one_cell);
