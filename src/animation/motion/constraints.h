@@ -1,13 +1,10 @@
 #pragma once
-#include <map>
 #include <optional>
 #include <span>
 
 #include "animation/project/project.h"
 
 namespace icome::animation {
-
-using CellStates = std::map<CellId, CellState>;
 
 /// A cell in a hand.
 struct Hold {

@@ -46,7 +46,7 @@ class GuidedKeys {
     return way_.at(s + part * way_.between(s, s_of_key(*to)));
   }
 
-  Vector2 keyed(double frame) const { return point_on_stage(cell_, state_at(cell_, frame), guide_.on_cell); }
+  Vector2 keyed(double frame) const { return on_stage(cell_, state_at(cell_, frame), guide_.on_cell); }
 
  private:
   double s_of_key(double frame) const {

@@ -1,7 +1,6 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -10,9 +9,6 @@
 #include "animation/project/project.h"
 
 namespace icome::animation {
-
-/// The states of all cells at a moment, the camera's too; a cell without one is not shown.
-using CellStates = std::map<CellId, CellState>;
 
 /// Another moment that is drawn faintly below the frame, in one colour or nearly so.
 struct OnionSkin {

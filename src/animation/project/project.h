@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ struct CellState {
 
   bool operator==(const CellState&) const = default;
 };
+
+/// The states of cells at a moment, perhaps with the camera's.
+using CellStates = std::map<CellId, CellState>;
 
 /// A thing that is moved: paper that was cut out. `scale` is stage px for one px of a picture, so all its
 /// pictures should be of one size.

@@ -83,8 +83,7 @@ void put_over(const Cell& cell, Channel channel, Track keys, ProjectEdit& edit) 
 
 }  // namespace
 
-ProjectEdit keyed_pose(const Project& project, int frame, const std::map<CellId, CellState>& states,
-                       Ease ease) {
+ProjectEdit keyed_pose(const Project& project, int frame, const CellStates& states, Ease ease) {
   ProjectEdit edit;
   for (const auto& [id, state] : states) {
     const Cell* cell = project.find(id);
@@ -99,7 +98,7 @@ ProjectEdit keyed_pose(const Project& project, int frame, const std::map<CellId,
   return edit;
 }
 
-void Recording::take(int frame, const std::map<CellId, CellState>& moved) {
+void Recording::take(int frame, const CellStates& moved) {
   if (frame < 0 || frame >= kLongestAnimation) return;
   for (const auto& [id, state] : moved) {
     const Layer* layer = project_.layer_of(id);

@@ -10,7 +10,7 @@ namespace icome::animation {
 /// The edit that keys, at one frame, all channels in which the states differ from what the project has there:
 /// what pose to pose does with cells that a hand has moved. Cells on locked layers are left alone. `ease` is
 /// the way on from there.
-ProjectEdit keyed_pose(const Project& project, int frame, const std::map<CellId, CellState>& states,
+ProjectEdit keyed_pose(const Project& project, int frame, const CellStates& states,
                        Ease ease = Ease::Straight);
 
 /// Takes down what cells do while an animation runs, to be put into it as one edit. Only cells of `layer` are
@@ -21,7 +21,7 @@ class Recording {
 
   /// Cells as they were moved at a frame; of several at one frame the last counts. Frames that were passed
   /// over get keys between.
-  void take(int frame, const std::map<CellId, CellState>& moved);
+  void take(int frame, const CellStates& moved);
 
   bool is_empty() const { return cells_.empty(); }
   /// Overdub: for each cell that was moved, keys of place, angle and scale at each frame from the first to

@@ -19,9 +19,9 @@ TEST(Constraints, TellWhereAPointOfACellIs) {
   wheel.pivot = {10, 0};
   wheel.rest.scale = 2;
   // 5 px to the right of the pivot, a quarter turned counter-clockwise: 10 px up.
-  EXPECT_LT((point_on_stage(wheel, wheel.rest, {15, 0}) - Vector2(100, 40)).norm(), 1e-12);
+  EXPECT_LT((on_stage(wheel, wheel.rest, {15, 0}) - Vector2(100, 40)).norm(), 1e-12);
   EXPECT_LT((seen_at(wheel, wheel.rest, {15, 0}) - Vector2(100, 40)).norm(), 1e-12);
-  EXPECT_LT((point_on_cell(wheel, wheel.rest, {100, 40}) - Vector2(15, 0)).norm(), 1e-12);
+  EXPECT_LT((on_cell(wheel, wheel.rest, {100, 40}) - Vector2(15, 0)).norm(), 1e-12);
 }
 
 TEST(Constraints, LeaveAProjectWithoutThemAlone) {
