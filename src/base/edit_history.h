@@ -1,11 +1,30 @@
 #pragma once
+#include <algorithm>
 #include <functional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/result.h"
 
 namespace icome::base {
+
+/// Applies the parts of an edit in order, all or none, and gives the edit that takes them back. `applying` is
+/// called with each kind of part, and gives the part that takes it back, or why it is refused.
+template <typename Edit, typename Applying>
+Result<Edit> apply_parts(Applying& applying, const Edit& edit) {
+  Edit back;
+  for (const auto& part : edit) {
+    auto undone = std::visit(applying, part);
+    if (!undone) {
+      for (auto step = back.rbegin(); step != back.rend(); ++step) std::visit(applying, *step);
+      return tl::unexpected(undone.error());
+    }
+    back.push_back(std::move(*undone));
+  }
+  std::reverse(back.begin(), back.end());
+  return back;
+}
 
 /// A value with the edits that were done to it, so that they can be taken back and done again. Edits are
 /// applied by `Result<Edit> apply_edit(Value&, const Edit&)` beside the value, which gives the edit that

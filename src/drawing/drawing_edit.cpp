@@ -211,18 +211,8 @@ base::Result<void> check_drawing(const Drawing& drawing) {
 }
 
 base::Result<DrawingEdit> apply_edit(Drawing& drawing, const DrawingEdit& edit) {
-  DrawingEdit back;
   Applying applying(drawing);
-  for (const DrawingChange& part : edit) {
-    auto undone = std::visit(applying, part);
-    if (!undone) {
-      for (auto step = back.rbegin(); step != back.rend(); ++step) std::visit(applying, *step);
-      return tl::unexpected(undone.error());
-    }
-    back.push_back(std::move(*undone));
-  }
-  std::reverse(back.begin(), back.end());
-  return back;
+  return base::apply_parts(applying, edit);
 }
 
 }  // namespace icome::drawing

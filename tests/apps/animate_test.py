@@ -187,6 +187,29 @@ class Animate(unittest.TestCase):
         self.assertEqual(told["recovered"], 1)
         self.assertTrue(any("line 3 is damaged" in note for note in told["notes"]))
 
+    def test_nothing_is_written_over_what_it_is_made_of(self):
+        project = self.small_project()
+        before = (self.folder / "square.svg").read_bytes()
+        done = animate(project, "--out", self.folder / "square.svg", "--frames", 0, code=1)
+        self.assertIn("is a file that the animation is made of", done.stderr)
+        self.assertEqual((self.folder / "square.svg").read_bytes(), before)
+        self.assertIn(".cutout", animate(project, "--save", self.folder / "keep.png", code=1).stderr)
+        self.assertFalse((self.folder / "keep.png").exists())
+
+    def test_hostile_projects_are_refused(self):
+        for text, words in [("", "cutout is missing"), ("cutout = 1\nx" + ".a" * 50_000 + " = 1\n", ":2: a key has"),
+                            ("cutout = 1\n[a" + ".a" * 50_000 + "]\n", ":2: a key has")]:
+            (self.folder / "bad.cutout").write_text(text)
+            self.assertIn(words, animate(self.folder / "bad.cutout", code=1).stderr)
+        dots = self.folder / "dots.cutout"
+        dots.write_text('cutout = 1\nmarks = [[0, "' + "." * 500 + '"]]  # ' + "." * 500 + "\n")
+        self.assertEqual(animate_json(dots)["marks"][0]["text"], "." * 500)
+
+    def test_a_sound_that_is_missing_is_told(self):
+        script = self.script({"op": "sound", "file": "gone.wav"})
+        animate("new", "--apply", script, "--save", "sound.cutout", cwd=self.folder)
+        self.assertEqual([it["file"] for it in animate_json(self.folder / "sound.cutout")["missing"]], ["gone.wav"])
+
     def test_both_examples_are_whole(self):
         for name in ("boat", "walk"):
             told = animate_json(EXAMPLES / name / f"{name}.cutout")

@@ -187,7 +187,7 @@ Words sound_words(const FilmSound& sound) {
           "-i",  handed(kSoundDescriptor)};
 }
 
-/// What a film of that format cannot be as the project is.
+/// Tells in which ways a film of that format is not as the project is.
 void tell_limits(const FrameMaker& maker, OutputFormat format, bool padded, ExportReport& report) {
   if (padded)
     report.remarks.push_back(fmt::format(

@@ -34,7 +34,7 @@ base::Result<const Pixels*> FrameMaker::draw(int frame) {
   options.backdrop = background_ ? Backdrop::Everywhere : Backdrop::None;
   options.picture_from_stage = view(shown);
   draw_frame(project_, shown, pictures_, options, pixels_);
-  // How far a drawing gets in its time depends on the machine, and frames must not.
+  // A drawing gets as far in its time as the machine lets it, and frames must not depend on that.
   if (pictures_.drawing_fault()) return base::fail(*pictures_.drawing_fault());
   return &pixels_;
 }

@@ -3,7 +3,7 @@
 
 namespace icome::animation {
 
-/// What all formats of an export draw from. Refers to what it is made of.
+/// The frames that all formats of an export draw from. Refers to what it is made of.
 class FrameMaker {
  public:
   FrameMaker(const Project& project, const StatesAt& states_at, CellPictures& pictures,

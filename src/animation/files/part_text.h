@@ -28,7 +28,7 @@ void write_sound(const Sound& sound, io::TomlFields& fields);
 void write_constraint(const Constraint& constraint, const CellWords& words, io::TomlFields& fields);
 void write_mapping(const Mapping& mapping, const CellWords& words, io::TomlFields& fields);
 
-// What is wrong is added to the problems, and something harmless returned.
+// Anything wrong is added to the problems, and something harmless returned.
 LayerLook read_layer(io::KeyReader& keys);
 CellLook read_look(io::KeyReader& keys);
 void read_state(io::KeyReader& keys, std::span<const Channel> channels, CellState& state);

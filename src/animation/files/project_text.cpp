@@ -66,7 +66,7 @@ class ProjectReader {
     return io::KeyReader(*node, what, kOneLanguage, problems_);
   }
 
-  /// Where nothing was wrong so far: what is wrong with one part would be said of all that need it.
+  /// Does nothing once something was wrong, which would be said again of all parts that need it.
   void put(io::Place place, ProjectChange change) {
     if (!problems_.none()) return;
     ProjectEdit edit;

@@ -55,9 +55,9 @@ struct Solution {
 Solution solved(const Project& project, const CellStates& states, std::span<const Hold> holds,
                 const CellStates* before);
 
-/// The same with the wishes of the held cells among all: `wished` is what hands wish for cells in `held`.
-/// What hangs on a held cell comes along by what that turns since `before`; without it, it keeps the wished
-/// angle.
+/// As solved() above, with the wishes of the held cells among all: `wished` is what hands wish for cells in
+/// `held`. What hangs on a held cell comes along by what that turns since `before`; without it, it keeps the
+/// wished angle.
 Solution solved(const Project& project, const CellStates& wished, std::span<const CellId> held,
                 const CellStates* before = nullptr);
 

@@ -116,7 +116,7 @@ Miss miss_of(const Arm& arm, const Vector2& target, const std::optional<double>&
 
 using Column = std::array<double, 3>;
 
-/// What each turn does to the task.
+/// The change of the task by each turn.
 std::vector<Column> columns_of(const Arm& arm, std::size_t rows) {
   std::vector<Column> columns(arm.size());
   for (std::size_t i = 0; i < arm.size(); ++i) {

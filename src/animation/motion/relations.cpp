@@ -293,7 +293,7 @@ void Relations::weigh(const Island& island, bool with_hands) {
   }
 }
 
-/// How a point of a cell moves along a direction with each freedom.
+/// The motion of a point of a cell along a direction with each freedom.
 void Relations::add_row(int cell, const Vector2& offset, const Vector2& along, double* row) const {
   const int root = rig_.cells[std::size_t(cell)].root;
   const int first = freedom_of_root_[std::size_t(root)];
@@ -329,7 +329,7 @@ bool Relations::step(const Island& island, std::size_t from, std::size_t to, dou
     for (std::size_t f = 0; f < freedoms; ++f)
       if (row[f] != 0) touched_[r].push_back(f);
   }
-  // What would turn past a limit is kept out.
+  // Cells that would turn past a limit are kept out.
   free_ = weights_;
   bool is_pushed = solve_rows(rows, freedoms, damping);
   for (int round = 0; round < kLimitRounds && block_limits(island); ++round)

@@ -54,7 +54,7 @@ class Relations {
     std::vector<int> roots;
     std::size_t freedoms = 0;
   };
-  /// How an island lies, to go back to.
+  /// The places and turns of an island, to go back to.
   struct Pose {
     std::vector<double> values;
   };

@@ -49,8 +49,8 @@ struct RigCell {
 
 class Rig {
  public:
-  /// Of the cells that have both a state and a hold or a constraint. Joints that would close a ring, and
-  /// second ones of a child, are left out.
+  /// Makes a rig of the cells that have both a state and a hold or a constraint. Joints that would close a
+  /// ring, and second ones of a child, are left out.
   Rig(const Project& project, const CellStates& states, std::span<const Hold> holds);
 
   std::vector<RigCell> cells;  ///< each tree's side by side, parents first

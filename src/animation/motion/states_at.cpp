@@ -28,7 +28,7 @@ KeysAround keys_around(const Cell& cell, double frame) {
   return around;
 }
 
-/// Where a guided cell is on its way, by its keys.
+/// The place of a guided cell on its way, by its keys.
 class GuidedKeys {
  public:
   GuidedKeys(const Cell& cell, const PathGuide& guide)

@@ -30,7 +30,7 @@ class Way {
   /// A bead at `s` slides towards `hand` as long as each step brings it nearer: it comes to the next place
   /// that is the nearest one near by, and never jumps to a piece that lies close but is far along the way.
   double slid(double s, const Vector2& hand) const;
-  /// The same within one frame: where little pulls along the way (the hand is at the centre of a bend) the
+  /// As slid(), within one frame: where little pulls along the way (the hand is at the centre of a bend) the
   /// bead goes by little, kPull times the pull, and more at corners. Round a sharp corner it follows a hand
   /// that is past it: to a place twice as near, kRound times as far along the way as the hand is from it.
   double slid_in_a_frame(double s, const Vector2& hand) const;

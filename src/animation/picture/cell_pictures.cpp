@@ -54,7 +54,7 @@ struct CellPictures::Entry {
   std::filesystem::path file;
   std::optional<Stamp> stamp;
   Result<PictureSize> size = PictureSize();
-  // What the file holds is the one or, for pictures made of pixels, the raster of step 0; neither once
+  // The content of the file is the one or, for pictures made of pixels, the raster of step 0; neither once
   // forgotten.
   std::optional<SvgPicture> svg;
   std::map<int, RasterPointer> rasters;  // by step

@@ -65,7 +65,7 @@ class CellPictures {
   base::Result<RasterPointer> raster(const std::string& picture, double scale);
   /// Why a picture that could be read could not be drawn: the first one's sentence; none where all could.
   const std::optional<std::string>& drawing_fault() const { return drawing_fault_; }
-  /// The same of one picture.
+  /// Why one picture could not be drawn; none where it could.
   std::optional<std::string> drawing_fault(const std::string& picture) const;
   /// The bytes of a picture for being put into other files, and what they are: "image/png" (a JPEG, too, is
   /// made one) or "image/svg+xml". Fails as size() does.
@@ -98,7 +98,7 @@ class CellPictures {
 };
 inline constexpr int kLargestDrawnSvg = 4096;  // px
 
-/// What is wrong with pictures of a project, by name; empty where all can be shown.
+/// The pictures of a project that cannot be shown, and why, by name; empty where all can be shown.
 std::vector<PictureProblem> picture_problems(const Project& project, CellPictures& pictures);
 
 }  // namespace icome::animation

@@ -16,7 +16,7 @@ struct OnionSkin {
   LayingLook look = {0.3, {{0.9F, 0.2F, 0.2F}, 0.6}};
 };
 
-/// Where the background's colour is drawn; elsewhere the picture is clear.
+/// The area in which the background's colour is drawn; elsewhere the picture is clear.
 enum class Backdrop : std::uint8_t { Everywhere, Stage, None };
 
 struct FrameOptions {

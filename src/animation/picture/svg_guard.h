@@ -6,7 +6,7 @@
 
 namespace icome::animation {
 
-/// What drawing an SVG file may take at most, by what its elements are in and refer to.
+/// The most that drawing an SVG file may take, by what its elements are in and refer to.
 struct SvgCost {
   int depth = 0;  ///< elements that are drawn within one another, as many as calls of the renderer
   int layers =

@@ -13,7 +13,8 @@ namespace icome::animation {
 
 using world::Colour;
 
-/// How a cell lies at a moment. On the stage x is to the right and y down, in px, from the upper left corner.
+/// The state of a cell at a moment. On the stage x is to the right and y down, in px, from the upper left
+/// corner.
 struct CellState {
   Vector2 place = Vector2::Zero();  ///< of its pivot, px
   double angle = 0;                 ///< rad, counter-clockwise as seen

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/edit_history.h"
+
 namespace icome::animation {
 namespace {
 
@@ -472,18 +474,8 @@ LayerLook look_of(const Layer& layer) { return {layer.name, layer.visible, layer
 CellLook look_of(const Cell& cell) { return {cell.name, cell.pictures, cell.pivot, cell.rest}; }
 
 base::Result<ProjectEdit> apply_edit(Project& project, const ProjectEdit& edit) {
-  ProjectEdit back;
   ProjectApplying applying(project);
-  for (const ProjectChange& part : edit) {
-    auto undone = std::visit(applying, part);
-    if (!undone) {
-      for (auto step = back.rbegin(); step != back.rend(); ++step) std::visit(applying, *step);
-      return tl::unexpected(undone.error());
-    }
-    back.push_back(std::move(*undone));
-  }
-  std::reverse(back.begin(), back.end());
-  return back;
+  return base::apply_parts(applying, edit);
 }
 
 }  // namespace icome::animation

@@ -45,7 +45,7 @@ struct PutCell {
 struct TakeCell {
   CellId id;
 };
-/// What a cell is, without its keys.
+/// A cell without its keys.
 struct CellLook {
   std::string name;
   std::vector<std::string> pictures;
@@ -88,7 +88,7 @@ struct PutConstraint {
 struct TakeConstraint {
   ConstraintId id;
 };
-/// What a triangle moves; nothing where `mapping` is none.
+/// The mapping of a triangle; it moves nothing where `mapping` is none.
 struct ChangeMapping {
   std::string triangle;
   std::optional<Mapping> mapping;

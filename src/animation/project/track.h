@@ -6,7 +6,7 @@
 
 namespace icome::animation {
 
-/// What changes of a cell over time. The camera has the first four.
+/// The values of a cell that change over time. The camera has the first four.
 enum class Channel : std::uint8_t { X, Y, Angle, Scale, Opacity, Picture };
 inline constexpr std::size_t kChannels = 6;
 inline constexpr std::array<Channel, kChannels> kAllChannels = {

@@ -125,7 +125,7 @@ class HandRecording {
     for (const cutout::Sighting& sighting : seen)
       triangles.push_back({known_.triangles[sighting.triangle].id, sighting.pose.centroid,
                            sighting.pose.angle, sighting.confidence});
-    // What no hand has touched goes on as its keys say; what one let go stays.
+    // Cells that no hand has touched go on as their keys say; what one let go stays.
     CellStates now = animation::states_at(project_, at);
     for (const auto& [cell, state] : touched_) now[cell] = state;
     const auto under = [&](const animation::Vector2& place) {

@@ -95,5 +95,23 @@ TEST(Constraints, BendALimbOfTwoBonesAsTheLawOfCosinesSays) {
   }
 }
 
+TEST(Constraints, BendAChainFromItsFirstCell) {
+  Project project = limb({100, 100, 100}, false);
+  constrain(project, Chain{{id_of(0), id_of(1), id_of(2)}});
+  const CellStates before = at_rest(project);
+  const Vector2 target(120, -130);  // within 200 px, and not with a straight first cell
+  CellState wish = before.at(id_of(2));
+  wish.place = target;
+  CellStates states = before;
+  for (int k = 0; k < 40; ++k) {
+    const Hold hold = {id_of(2), wish};
+    const CellStates last = states;
+    states = solved(project, last, std::span(&hold, 1), &last).states;
+  }
+  EXPECT_LT((states.at(id_of(2)).place - target).norm(), 0.5);
+  EXPECT_GT(std::abs(states.at(id_of(0)).angle - before.at(id_of(0)).angle), 0.05);
+  EXPECT_EQ(states.at(id_of(0)).place, before.at(id_of(0)).place);
+}
+
 }  // namespace
 }  // namespace icome::animation

@@ -36,7 +36,7 @@ std::string refusal_of(const ProjectChange& change, const Project& start = harbo
   return done ? "" : done.error().message;
 }
 
-/// What every project must be, looked at without the code of edits.
+/// Expects of a project what all must be, looked at without the code of edits.
 void expect_sound(const Project& project) {
   std::set<std::uint64_t> numbers = {1};
   std::set<std::string> names = {"camera"};

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/random.h"
 
 namespace icome::animation {
@@ -54,6 +56,21 @@ TEST(Recording, TakesDownEachFrameAndThoseThatWerePassedOver) {
   ASSERT_TRUE(apply_edit(project, recording.finish(0)));
   EXPECT_EQ(track_of_x(project, kBoat), (Track{{2, 10}, {3, 20}, {4, 30}, {5, 40}, {6, 50}}));
   EXPECT_TRUE(project.find(kBoat)->tracks[std::size_t(Channel::Y)].empty());
+}
+
+TEST(Recording, ThinsTurnsByWhatTheyMoveARimBy) {
+  Project project = two_layers();
+  Recording recording(project, std::nullopt);
+  const auto turn = [](int frame) { return 0.6 * std::sin(0.3 * frame); };
+  for (int frame = 0; frame < 60; ++frame) {
+    CellState state = at(0);
+    state.angle = turn(frame);
+    recording.take(frame, {{kBoat, state}});
+  }
+  ASSERT_TRUE(apply_edit(project, recording.finish(0.25)));
+  EXPECT_LT(project.find(kBoat)->tracks[std::size_t(Channel::Angle)].size(), 60U);
+  for (int frame = 0; frame < 60; ++frame)
+    EXPECT_LE(300 * std::abs(state_at(*project.find(kBoat), frame).angle - turn(frame)), 0.2501) << frame;
 }
 
 TEST(Recording, GoesOverOneLayerOnly) {
