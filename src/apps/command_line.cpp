@@ -340,6 +340,7 @@ void add_techniques_options(CLI::App& techniques, TechniquesOptions& options) {
   techniques.add_option("--seed", options.seed, "Of all that is random (default 1)")->type_name("N");
   techniques.add_option("--picture", options.picture, "Draw the result into a PNG file")
       ->type_name("OUT.png");
+  techniques.add_flag("--menus", options.menus, "Compare menus that are felt instead (thesis 4.4.2, 6.6)");
   techniques.add_flag("--json", options.json, "Print the result as JSON (fields below)");
 }
 

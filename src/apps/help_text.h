@@ -324,6 +324,7 @@ constexpr const char* kTechniquesExamples =
     "  icome techniques                            a ranking\n"
     "  icome techniques --picture techniques.png   and a page that shows all of it\n"
     "  icome techniques --users 100 --seed 7 --json > techniques.json\n"
+    "  icome techniques --menus --picture menus.png  lists, pies and daisies, clicked and pushed\n"
     "\n"
     "Simulated people select one ball after the other on a ring before them, as in ISO 9241-411, with "
     "targets\n"
@@ -348,6 +349,11 @@ constexpr const char* kTechniquesExamples =
     "  distractors_per_target, distractors (all in the scene), id_bits, reachable, movement_time_s,\n"
     "  movement_time_sd_s, error_rate, movements (with corrections), effective_width_m,\n"
     "  throughput_bits_per_s}]}]. Figures of what is out of reach are null.\n"
+    "\n"
+    "With --menus the same people choose from lists, pies and daisies of 5, 12 and 40 items, by click and\n"
+    "by push, without feel, with wells and with recesses, which they feel through the servo. JSON then:\n"
+    "assumptions {notice, users, trials_per_condition, seed, person, left_out}, conditions [{menu, items,\n"
+    "  choose, feel, time_s, time_sd_s, error_rate, movements, way_m}].\n"
     "\n"
     "Exit code: 0 done, 1 something could not be done, 2 wrong usage, 130 it was interrupted.";
 

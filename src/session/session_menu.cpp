@@ -97,6 +97,12 @@ ElementFrame SessionParts::menu_frame() const {
   return {rest * Vector3(size * element.centre), heading_of(rest) + element.turn, 0.0, size};
 }
 
+/// The way that the eye looks: through the middle of the picture, wherever the head has turned that.
+interaction::Ray SessionParts::gaze() const {
+  const base::Pose& eye = user.drawn_view().world_from_eye;
+  return {eye.translation(), -eye.linear().col(2)};
+}
+
 /// Is that pointer the hand that uses the menu, and near it? Its button is the menu's then.
 bool SessionParts::is_at_menu(std::size_t pointer) const {
   return menu.use() != nullptr && menu.hand() == pointer && menu.use()->is_near();
@@ -110,7 +116,8 @@ void SessionParts::use_menu() {
     for (const PointerTick& it : hands.take_watched())
       if (!is_mouse(it.pointer) || hand_is_aimed)
         ticks.push_back({it.pointer, {double(it.time) * 1e-9, it.tip, (it.buttons & 1U) != 0}});
-    for (MenuChoice& it : menu.take(ticks, now)) menu_chosen.push_back(std::move(it));
+    for (MenuChoice& it : menu.is_looked_at() ? menu.look(gaze(), ticks, now) : menu.take(ticks, now))
+      menu_chosen.push_back(std::move(it));
   }
   if (menu.follow(now)) hands.felt().publish_menu(menu.effects());
   if (menu.draw(menu_theme)) look_is_new = true;

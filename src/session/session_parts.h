@@ -155,6 +155,7 @@ struct SessionParts {
   bool is_at_menu(std::size_t pointer) const;
   interaction::ElementFrame menu_frame() const;
   double menu_size(std::optional<std::size_t> hand) const;
+  interaction::Ray gaze() const;
 
   // session.cpp
   void take_in();

@@ -165,6 +165,49 @@ class MenuTest(ProgramTest):
                    saying="p.csv:2: b, the button, is 0 (up) or 1 (down)")
         self.fails("menu", MENUS / "clear.toml", "--picture", self.folder / "menu.jpg", code=1, saying=".png")
 
+    def test_a_daisy_lies_on_a_sphere_and_turns_with_the_hand(self):
+        daisy = 'kind = "daisy"\ncentre = [0.1, 0.2, 0.3]\n' + "".join(f'[[item]]\nname = "N{i}"\n' for i in range(20))
+        layout = self.layout(daisy)
+        self.assertEqual(layout["kind"], "daisy")
+        items = layout["items"]
+        # All normals lead from one point, the middle of the sphere, which lies behind the element's place.
+        front = items[0]
+        self.assertAlmostEqual(math.dist(front["centre"], [0.1, 0.2, 0.3]), 0, places=9)
+        side = next(it for it in items if it["normal"][2] < 0.9)
+        radius = (front["centre"][2] - side["centre"][2]) / (1 - side["normal"][2])
+        for item in items:
+            self.assertAlmostEqual(math.dist(plus(item["centre"], item["normal"], -radius), [0.1, 0.2, 0.3 - radius]),
+                                   0, places=9)
+        # A hand goes as far in the plane as the item is away along the sphere.
+        for item in (front, side, items[-1]):
+            angle = math.acos(max(-1.0, min(1.0, item["normal"][2])))
+            sine = math.hypot(*item["normal"][:2])
+            aside = [radius * angle * n / sine if sine > 1e-9 else 0.0 for n in item["normal"][:2]]
+            at = [0.1 + aside[0], 0.2 + aside[1], 0.3]
+            way = [plus(at, (0, 0, 1), 0.05), plus(at, (0, 0, 1), -0.006), plus(at, (0, 0, 1), 0.03)]
+            self.assertEqual(self.tried(daisy, path_of(way), "--choose", "push")["chosen"], [item["name"]])
+
+    def test_what_a_head_looks_at_is_chosen(self):
+        menu = TURNED % 30
+        items = self.layout(menu)["items"]
+        for item, chosen in ((items[0], ["Red"]), (items[1], []), (items[2], ["Blue"])):
+            eye = plus(plus(item["centre"], item["normal"], 0.4), (0.1, 0.05, 0))
+            way = plus(item["centre"], eye, -1)
+            length = math.hypot(*way)
+            # The shortest turn from -z to the way looked.
+            x, y, z = (w / length for w in way)
+            turn = [y, -x, 0.0, 1.0 - z]
+            rows = ["t x y z qx qy qz qw"] + [" ".join(map(repr, [0.02 * i, *eye, *turn])) for i in range(30)]
+            motion = self.write("head.txt", "\n".join(rows).replace("t x y z qx qy qz qw\n", "") + "\n")
+            looked = json.loads(self.succeeds("menu", self.write("menu.toml", menu), "--path", motion, "--choose", "look",
+                                              "--json").stdout)
+            self.assertEqual(looked["chosen"], chosen)
+            self.assertIsNone(looked["tick_us"])
+            self.assertAlmostEqual(looked["near_s"], 0.58, places=6)
+            self.assertEqual([it["by"] for it in looked["choices"]], ["look"] * len(chosen))
+        self.fails("menu", MENUS / "clear.toml", "--path", self.write("head.txt", "0 0 0 0 0 0 0\n"), "--choose", "look",
+                   code=1, saying="head.txt:1")
+
     def test_pictures_show_it_faded_and_opaque(self):
         out = self.folder / "menu.png"
         self.succeeds("menu", MENUS / "colours.toml", "--picture", out)

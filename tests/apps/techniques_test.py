@@ -32,6 +32,20 @@ class TechniquesTest(ProgramTest):
         scores = [it["score_bits_per_s"] for it in report["techniques"]]
         self.assertEqual(scores, sorted(scores, reverse=True))
 
+    def test_menus_are_compared_by_kind_items_choice_and_feel(self):
+        report = json.loads(self.succeeds("techniques", "--menus", "--users", "2", "--trials", "2", "--json").stdout)
+        self.assertEqual(set(report), {"assumptions", "conditions"})
+        self.assertIn("no study of people", report["assumptions"]["notice"])
+        rows = report["conditions"]
+        self.assertEqual({(it["menu"], it["items"], it["choose"], it["feel"]) for it in rows},
+                         {(menu, items, choose, feel) for menu in ("list", "pie", "daisy") for items in (5, 12, 40)
+                          for choose in ("click", "push") for feel in ("none", "well", "recess")})
+        for it in rows:
+            self.assertTrue(0.5 < it["time_s"] <= 11)
+            self.assertTrue(0 <= it["error_rate"] <= 1)
+            self.assertGreaterEqual(it["movements"], 1)
+        self.fails("techniques", "--menus", "--users", "0", code=2, saying="1 to 1000")
+
     def test_every_assumption_has_its_source_and_simulation_is_said(self):
         assumptions = self.measured()["assumptions"]
         self.assertIn("no study of people", assumptions["notice"])

@@ -14,7 +14,9 @@
 #include "devices/device_profiles.h"
 #include "fonts/text_ruler.h"
 #include "fonts/text_shape.h"
+#include "interaction/elements/element_feel.h"
 #include "interaction/elements/element_file.h"
+#include "io/file_bytes.h"
 #include "io/new_file.h"
 
 namespace icome::apps {
@@ -26,6 +28,7 @@ using interaction::LaidWidget;
 using interaction::Widget;
 using Json = nlohmann::ordered_json;
 
+constexpr std::uint64_t kLongestTrace = 1'000'000'000;  // bytes
 constexpr double kTickSeconds = 0.001;  // the longest between two ticks while trying
 
 constexpr const char* kMenuNotes =
@@ -34,17 +37,18 @@ constexpr const char* kMenuNotes =
     "  icome menu colours.toml --picture menu.png  faded, and near the pointer with an item lit\n"
     "  icome menu colours.toml --path tip.csv --choose push --json\n"
     "\n"
-    "FILE.toml describes a haptic element: a menu, toolbar, dialog, ring or pie that lies in the scene\n"
-    "(docs/elements.md). The path has a first line t,x,y,z (s, m, world frame), and perhaps a fifth\n"
+    "FILE.toml describes a haptic element: a menu, toolbar, dialog, ring, pie or daisy that lies in the\n"
+    "scene (docs/elements.md). The path has a first line t,x,y,z (s, m, world frame), and perhaps a fifth\n"
     "column b, the button: 1 down, 0 up. Without it a click comes where the path ends. Each row is a\n"
     "tick of the servo, with more on the way where rows are over 1 ms apart; forces keep the limits of\n"
-    "the device.\n"
+    "the device. With --choose look it is the motion of a head instead, rows t x y z qx qy qz qw (s, m,\n"
+    "a quaternion; the head looks along -z), and what is looked at when it ends is chosen.\n"
     "\n"
     "JSON: {file, kind, language, items: [{name, text, kind, centre: [x,y,z], normal: [x,y,z], width,\n"
     "height, enabled, submenu: null or [items, as they lie when it is open]}]} (m, world frame);\n"
     "with --path instead {chosen: [names], choices: [{name, by, time_s}], seconds, near_s, pushes, "
     "max_force_n,\n"
-    "max_force_step_n, tick_us: {median, p99, max}}.";
+    "max_force_step_n, tick_us: {median, p99, max}} (tick_us is null with --choose look).";
 
 const char* word_of(interaction::ElementKind kind) {
   switch (kind) {
@@ -57,9 +61,11 @@ const char* word_of(interaction::ElementKind kind) {
     case interaction::ElementKind::Ring:
       return "ring";
     case interaction::ElementKind::Pie:
+      return "pie";
+    case interaction::ElementKind::Daisy:
       break;
   }
-  return "pie";
+  return "daisy";
 }
 
 const char* word_of(interaction::WidgetKind kind) {
@@ -89,9 +95,11 @@ const char* word_of(interaction::ChosenBy by) {
     case interaction::ChosenBy::Key:
       return "key";
     case interaction::ChosenBy::Name:
+      return "name";
+    case interaction::ChosenBy::Look:
       break;
   }
-  return "name";
+  return "look";
 }
 
 Json place_json(const base::Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
@@ -115,11 +123,14 @@ Json items_of(const Prepared& prepared, const std::vector<const Widget*>& open) 
   for (const LaidWidget& laid : layout.widgets) {
     const Widget& widget = *laid.widget;
     if (laid.sheet + 1 != layout.sheets.size() || !widget.can_be_chosen()) continue;
+    const auto& sphere = layout.sheets[laid.sheet].sphere;
+    const base::Pose lying = sphere ? frame.world_from_element() * sphere->tile_at(laid.centre, {0.0, 0.0})
+                                    : interaction::world_from_sheet(frame, {nullptr, laid.centre});
     Json item{{"name", widget.name},
               {"text", laid.lines.front()},
               {"kind", word_of(widget.kind)},
-              {"centre", place_json(frame.in_world(laid.centre))},
-              {"normal", place_json(frame.normal())},
+              {"centre", place_json(lying.translation())},
+              {"normal", place_json(lying.linear().col(2))},
               {"width", 2.0 * laid.half.x()},
               {"height", 2.0 * laid.half.y()},
               {"enabled", widget.enabled},
@@ -173,6 +184,11 @@ std::string trial_json(const MenuTrial& trial) {
     names.push_back(choice.name);
     choices.push_back({{"name", choice.name}, {"by", word_of(choice.by)}, {"time_s", choice.time}});
   }
+  Json ticks = nullptr;
+  if (!trial.tick_us.empty())
+    ticks = {{"median", share_of(trial.tick_us, 0.5)},
+             {"p99", share_of(trial.tick_us, 0.99)},
+             {"max", trial.tick_us.back()}};
   return menu_json_text({{"chosen", names},
                          {"choices", choices},
                          {"seconds", trial.seconds},
@@ -180,10 +196,7 @@ std::string trial_json(const MenuTrial& trial) {
                          {"pushes", trial.pushes},
                          {"max_force_n", trial.max_force},
                          {"max_force_step_n", trial.max_force_step},
-                         {"tick_us",
-                          {{"median", share_of(trial.tick_us, 0.5)},
-                           {"p99", share_of(trial.tick_us, 0.99)},
-                           {"max", trial.tick_us.back()}}}});
+                         {"tick_us", ticks}});
 }
 
 std::string trial_text(const MenuTrial& trial) {
@@ -193,6 +206,7 @@ std::string trial_text(const MenuTrial& trial) {
   for (const MenuChoice& choice : trial.chosen)
     text += fmt::format("  {:.3f} s: {} (by {})\n", choice.time, choice.name, word_of(choice.by));
   if (trial.chosen.empty()) text += "  nothing was chosen\n";
+  if (trial.tick_us.empty()) return text;
   return text + fmt::format(
                     "force at most {:.3g} N, in steps of at most {:.3g} N; a tick {:.2g} us in the median, "
                     "{:.2g} at most\n",
@@ -218,7 +232,17 @@ base::Result<Prepared> prepare(const MenuOptions& options) {
   return prepared;
 }
 
+base::Result<std::string> answer_of_looking(ElementUse& use, const MenuOptions& options) {
+  const auto text = io::read_bytes(*options.path, kLongestTrace);
+  if (!text) return tl::unexpected(text.error());
+  const auto motion = devices::read_head_trace(*text, options.path->string());
+  if (!motion) return tl::unexpected(motion.error());
+  const MenuTrial trial = look_at_element(use, *motion);
+  return options.json ? trial_json(trial) : trial_text(trial);
+}
+
 base::Result<std::string> answer_of_trial(ElementUse& use, const MenuOptions& options) {
+  if (options.choose == "look") return answer_of_looking(use, options);
   const auto device = devices::find_device_profile(options.device);
   if (!device) return tl::unexpected(device.error());
   auto path = devices::PathPlayer::create(options.path->string(), *device);
@@ -246,6 +270,7 @@ base::Result<void> write_picture(const ElementUse& use, const MenuOptions& optio
 base::Result<std::string> answer_of(Prepared& prepared, const MenuOptions& options, StatusLine& status) {
   prepared.element.choosing.by_click = !options.path || options.choose == "click";
   prepared.element.choosing.by_push = !options.path || options.choose == "push";
+  prepared.element.choosing.by_look = options.path && options.choose == "look";
   ElementUse use(prepared.element, prepared.language, prepared.measure);
   if (options.picture)
     if (const auto written = write_picture(use, options, status); !written)
@@ -265,8 +290,8 @@ void add_menu(CLI::App& app, MenuOptions& options) {
       ->type_name("NAME");
   auto* const path =
       menu.add_option("--path", options.path, "Try it: move the tip along these rows")->type_name("P.csv");
-  menu.add_option("--choose", options.choose, "How the path chooses: click (default) or push")
-      ->check(CLI::IsMember({"click", "push"}))
+  menu.add_option("--choose", options.choose, "How the path chooses: click (default), push or look")
+      ->check(CLI::IsMember({"click", "push", "look"}))
       ->type_name("HOW")
       ->needs(path);
   menu.add_option("--device", options.device, "Profile of the device of the path (default touch)")

@@ -5,7 +5,7 @@
 
 #include "render/model/views.h"
 #include "render/pictures/picture_of_scene.h"
-#include "session/elements/element_picture.h"
+#include "session/elements/element_panels.h"
 
 namespace icome::apps {
 namespace {
@@ -15,6 +15,7 @@ using interaction::ElementUse;
 constexpr int kHeight = 720;            // pixels, of both halves
 constexpr int kHalfWidth = 800;         // pixels
 constexpr double kResolution = 8000.0;  // pixels a metre of the sheets
+constexpr double kRoughly = 100.0;      // pixels a metre, where only places count
 
 base::Result<render::RenderScenePointer> background(const MenuOptions& options, StatusLine& status) {
   render::ScenePublisher publisher;
@@ -26,11 +27,10 @@ base::Result<render::RenderScenePointer> background(const MenuOptions& options, 
 
 std::vector<base::Vector3> corners_of(const ElementUse& use) {
   std::vector<base::Vector3> corners;
-  for (const interaction::LaidSheet& sheet : use.layout().sheets)
+  for (const auto& panel : session::panels_of(use, session::ElementTheme::Light, kRoughly))
     for (const double x : {-1.0, 1.0})
       for (const double y : {-1.0, 1.0})
-        corners.push_back(
-            use.frame().in_world(sheet.centre + base::Vector2(x * sheet.half.x(), y * sheet.half.y())));
+        corners.push_back(*panel.at + x * (*panel.lying)[0] + y * (*panel.lying)[1]);
   return corners;
 }
 

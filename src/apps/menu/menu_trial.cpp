@@ -55,4 +55,18 @@ std::optional<MenuTrial> try_element(ElementUse& use, devices::PathPlayer& path)
   return trial;
 }
 
+MenuTrial look_at_element(ElementUse& use, const std::vector<devices::HeadSample>& motion) {
+  MenuTrial trial;
+  trial.seconds = motion.back().time - motion.front().time;
+  const auto look = [&](const devices::HeadSample& sample, bool button) {
+    const base::Pose& head = sample.tracker_from_head;
+    if (const auto choice = use.look({head.translation(), -head.linear().col(2)}, button, sample.time))
+      trial.chosen.push_back({choice->widget->name, choice->by, sample.time});
+  };
+  for (const devices::HeadSample& sample : motion) look(sample, true);
+  look(motion.back(), false);
+  trial.near_seconds = use.near_seconds();
+  return trial;
+}
+
 }  // namespace icome::apps

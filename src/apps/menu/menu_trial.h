@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/head_trace.h"
 #include "devices/path_player.h"
 #include "interaction/elements/element_use.h"
 
@@ -27,6 +28,9 @@ struct MenuTrial {
   std::vector<double> tick_us;  // the servo's own time of each tick, rising
   std::string capped;           // what the device cannot render as the file asks for; empty: nothing
 };
+
+/// Looks along the motion of a head, world frame, with the button down until it ends.
+MenuTrial look_at_element(interaction::ElementUse& use, const std::vector<devices::HeadSample>& motion);
 
 /// Moves the tip along the path, a row a tick, through the servo with its limiter. A path without a button
 /// clicks where it ends. Nothing where it was interrupted.

@@ -6,6 +6,7 @@
 
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
+#include "apps/techniques/menus_report.h"
 #include "apps/techniques/techniques_picture.h"
 #include "apps/techniques/techniques_report.h"
 #include "io/new_file.h"
@@ -23,11 +24,45 @@ base::Result<interaction::BenchResult> measure_techniques(const TechniquesOption
   });
 }
 
-base::Result<void> write_picture(const interaction::BenchResult& result, io::NewFile& out) {
-  const auto png = charts::encode_png(draw_techniques(result));
+base::Result<study::MenuBenchResult> measure_menus(const TechniquesOptions& options, StatusLine& status) {
+  study::MenuBenchSettings settings;
+  settings.users = options.bench.users;
+  settings.trials = options.bench.trials;
+  settings.seed = options.bench.seed;
+  settings.person = options.bench.person;
+  std::mutex telling;  // the bench runs on several threads
+  return study::run_menu_bench(settings, [&](double share) {
+    const std::lock_guard hold(telling);
+    status.progress("Simulating", 100.0 * share, 100.0, "%");
+    return !interrupted();
+  });
+}
+
+base::Result<void> write_picture(const charts::Image& page, io::NewFile& out) {
+  const auto png = charts::encode_png(page);
   if (!png) return tl::unexpected(png.error());
   out.write(std::string_view(reinterpret_cast<const char*>(png->data()), png->size()));
   return out.finish();
+}
+
+base::Result<std::string> answer_on_techniques(const TechniquesOptions& options,
+                                               std::optional<io::NewFile>& out, StatusLine& status) {
+  const auto result = measure_techniques(options, status);
+  if (!result) return tl::unexpected(result.error());
+  if (out)
+    if (const auto written = write_picture(draw_techniques(*result), *out); !written)
+      return tl::unexpected(written.error());
+  return options.json ? techniques_json(*result) : techniques_text(*result);
+}
+
+base::Result<std::string> answer_on_menus(const TechniquesOptions& options, std::optional<io::NewFile>& out,
+                                          StatusLine& status) {
+  const auto result = measure_menus(options, status);
+  if (!result) return tl::unexpected(result.error());
+  if (out)
+    if (const auto written = write_picture(draw_menus(*result), *out); !written)
+      return tl::unexpected(written.error());
+  return options.json ? menus_json(*result) : menus_text(*result);
 }
 
 }  // namespace
@@ -44,14 +79,11 @@ int run_techniques(const TechniquesOptions& options) {
     if (!created) return end_without_result(created.error(), status);
     out.emplace(std::move(*created));
   }
-  const auto result = measure_techniques(options, status);
-  if (!result) return end_without_result(result.error(), status);
-  if (out) {
-    if (const auto written = write_picture(*result, *out); !written)
-      return end_without_result(written.error(), status);
-  }
+  const auto answer = options.menus ? answer_on_menus(options, out, status)
+                                    : answer_on_techniques(options, out, status);
+  if (!answer) return end_without_result(answer.error(), status);
   status.clear();
-  return print_answer(options.json ? techniques_json(*result) : techniques_text(*result));
+  return print_answer(*answer);
 }
 
 }  // namespace icome::apps

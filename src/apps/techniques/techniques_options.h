@@ -10,6 +10,7 @@ struct TechniquesOptions {
   interaction::BenchSettings bench;
   std::int64_t seed = 1;          // of bench; not below 0
   std::filesystem::path picture;  // empty: none
+  bool menus = false;             // menus that are felt, instead of techniques
   bool json = false;
 };
 

@@ -15,7 +15,8 @@ enum class ElementKind : std::uint8_t {
   Toolbar,  // beside each other, in rows
   Dialog,   // words, then buttons beside each other
   Ring,     // round a free middle (JDCAD, thesis 2.2.3)
-  Pie       // sectors of a disc (HoloSketch, thesis 5.7.2)
+  Pie,      // sectors of a disc (HoloSketch, thesis 5.7.2)
+  Daisy     // on a sphere that the hand turns (JDCAD, thesis 2.2.3)
 };
 
 enum class WidgetKind : std::uint8_t {
@@ -73,6 +74,7 @@ struct Widget {
 struct ChoosingSettings {
   bool by_click = true;       // near is enough: the button chooses what is lit
   bool by_push = true;        // the ground is pushed in
+  bool by_look = false;       // instead: what is looked at is chosen when the button is released (CHIMP)
   double near = 0.02;         // m, > 0, to the plane
   double margin = 0.005;      // m, by which the rectangle is larger than the element
   double push_depth = 0.003;  // m, > 0
@@ -108,6 +110,8 @@ struct Element {
   double text_height = 0.004;                    // m, of a capital letter
   std::uint32_t columns = 0;                     // of a toolbar; 0: all in one row
   double width = 0.12;                           // m, at which words of a dialog are broken
+  double radius = 0.0;                           // m, of a daisy's sphere, at least
+  double cone = 0.454;                           // rad, half the angle of a daisy's cone
   ChoosingSettings choosing;
   FadingSettings fading;
   GroundSettings ground;

@@ -27,7 +27,8 @@ const Words<ElementKind> kKinds = {{"menu", ElementKind::Menu},
                                    {"toolbar", ElementKind::Toolbar},
                                    {"dialog", ElementKind::Dialog},
                                    {"ring", ElementKind::Ring},
-                                   {"pie", ElementKind::Pie}};
+                                   {"pie", ElementKind::Pie},
+                                   {"daisy", ElementKind::Daisy}};
 const Words<WidgetKind> kWidgetKinds = {{"item", WidgetKind::Item},   {"check", WidgetKind::Check},
                                         {"radio", WidgetKind::Radio}, {"slider", WidgetKind::Slider},
                                         {"label", WidgetKind::Label}, {"separator", WidgetKind::Separator}};
@@ -51,6 +52,7 @@ class ElementReader {
     const WidgetFeel feel = read_feel(keys, WidgetFeel());
     element.widgets = read_widgets(keys, "item", element.languages, feel, 1);
     check_only_one(element.widgets, keys.place());
+    check_daisy(element, keys.place());
     if (element.widgets.empty() && problems_.none())
       problems_.add(keys.place(), "the element has no widgets; write [[item]] with name = \"...\"");
     keys.finish();
@@ -79,6 +81,8 @@ class ElementReader {
     element.text_height = keys.number("text_m", element.text_height, 0.0005, 1.0);
     element.columns = std::uint32_t(keys.whole("columns", 0, 0, 100));
     element.width = keys.number("width_m", element.width, 0.01, 10.0);
+    element.radius = keys.number("radius_m", element.radius, 0.0, 10.0);
+    element.cone = keys.number("cone_deg", 26.0, 1.0, 90.0) * std::numbers::pi / 180.0;
     element.place = keys.word("at", kPlaces, ElementPlace::World);
     if (const auto centre = keys.point("centre", kFarthestCentre)) element.centre = *centre;
     element.turn = keys.number("turn_deg", 0.0, -180.0, 180.0) * std::numbers::pi / 180.0;
@@ -97,11 +101,12 @@ class ElementReader {
   }
 
   void read_choosing(KeyReader& keys, ChoosingSettings& choosing) {
-    enum class By : std::uint8_t { Click, Push, Both };
-    const By by =
-        keys.word<By>("by", {{"click", By::Click}, {"push", By::Push}, {"both", By::Both}}, By::Both);
-    choosing.by_click = by != By::Push;
-    choosing.by_push = by != By::Click;
+    enum class By : std::uint8_t { Click, Push, Both, Look };
+    const By by = keys.word<By>(
+        "by", {{"click", By::Click}, {"push", By::Push}, {"both", By::Both}, {"look", By::Look}}, By::Both);
+    choosing.by_click = by == By::Click || by == By::Both;
+    choosing.by_push = by == By::Push || by == By::Both;
+    choosing.by_look = by == By::Look;
     choosing.near = keys.number("near_m", choosing.near, 0.001, 1.0);
     choosing.margin = keys.number("margin_m", choosing.margin, 0.0, 1.0);
     choosing.push_depth = keys.number("push_m", choosing.push_depth, 0.0005, 0.015);
@@ -212,6 +217,18 @@ class ElementReader {
     } else if (!names_.insert(widget.name).second) {
       problems_.add(keys.place_of("name"), fmt::format("item: there are two of the name '{}'.", widget.name));
     }
+  }
+
+  /// On a sphere lie things of one size, as many as can still be told apart.
+  void check_daisy(const Element& element, const io::Place& place) {
+    if (element.kind != ElementKind::Daisy) return;
+    if (element.widgets.size() > kMostOnDaisy)
+      problems_.add(place, fmt::format("the element: a daisy has {} items at most, not {}.", kMostOnDaisy,
+                                       element.widgets.size()));
+    for (const Widget& widget : element.widgets)
+      if (!widget.can_be_chosen() || widget.kind == WidgetKind::Slider)
+        problems_.add(place, fmt::format("the element: on a daisy lie items, checks and radios, not '{}'.",
+                                         widget.name.empty() ? widget.text.front() : widget.name));
   }
 
   /// One default and one cancel in a menu, and one radio that is on in each group of it.

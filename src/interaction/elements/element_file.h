@@ -10,6 +10,8 @@ namespace icome::interaction {
 
 /// The most widgets of an element, in all its menus.
 inline constexpr std::size_t kMostWidgets = 2000;
+/// The most items on the sphere of a daisy.
+inline constexpr std::size_t kMostOnDaisy = 200;
 /// The most menus inside each other.
 inline constexpr std::size_t kDeepestMenu = 8;
 

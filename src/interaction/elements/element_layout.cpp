@@ -69,6 +69,8 @@ class Arranger {
         return arrange_ring();
       case ElementKind::Pie:
         return arrange_pie();
+      case ElementKind::Daisy:
+        return arrange_daisy();
     }
   }
 
@@ -269,6 +271,19 @@ class Arranger {
     }
   }
 
+  void arrange_daisy() {
+    const Vector2 size = largest();
+    const Vector2 tile = size + Vector2::Constant(kGap * unit_);
+    const DaisyLayout daisy = daisy_layout(element_.widgets.size(), tile, element_.radius);
+    Vector2 half = Vector2::Constant(daisy.radius);
+    for (const Vector2& place : daisy.places) half = half.cwiseMax(place.cwiseAbs() + 0.5 * tile);
+    LaidSheet& sheet = layout_.sheets.emplace_back(LaidSheet{nullptr, Vector2::Zero(), half, title(), 0.0});
+    sheet.title_half = middle_title();
+    sheet.sphere = DaisySphere{daisy.radius, element_.cone};
+    for (std::size_t i = 0; i < daisy.places.size(); ++i)
+      add(element_.widgets[i], daisy.places[i], 0.5 * size);
+  }
+
   const Element& element_;
   std::size_t language_;
   const TextMeasure& measure_;
@@ -299,8 +314,23 @@ SliderGroove groove_of(const LaidWidget& slider, double text_height) {
 
 const LaidWidget* ElementLayout::at(const Vector2& place) const {
   for (std::size_t i = widgets.size(); i-- > 0;)
-    if (widgets[i].contains(place)) return &widgets[i];
-  return nullptr;
+    if (!sheets[widgets[i].sheet].sphere && widgets[i].contains(place)) return &widgets[i];
+  return sheets.empty() || !sheets.front().sphere ? nullptr : in_cone(place);
+}
+
+/// The nearest to the axis of the cone, while that place is in front.
+const LaidWidget* ElementLayout::in_cone(const Vector2& front) const {
+  const DaisySphere& sphere = *sheets.front().sphere;
+  const LaidWidget* nearest = nullptr;
+  double least = sphere.cone;
+  for (const LaidWidget& it : widgets) {
+    if (it.sheet != 0) continue;
+    const double angle = sphere.angle_between(it.centre, front);
+    if (angle > least) continue;
+    least = angle;
+    nearest = &it;
+  }
+  return nearest;
 }
 
 ElementLayout lay_out(const Element& element, std::size_t language, const TextMeasure& measure,

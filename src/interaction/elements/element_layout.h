@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "interaction/elements/daisy.h"
 #include "interaction/elements/element.h"
 
 namespace icome::interaction {
-
-using base::Vector2;
 
 /// Measures text: its width for capital letters of height 1.
 using TextMeasure = std::function<double(const std::string& utf8)>;
@@ -50,6 +49,7 @@ struct LaidSheet {
   std::string title = {};
   double title_height = 0.0;             // m, of its row along the upper edge; 0: none
   Vector2 title_half = Vector2::Zero();  // where it stands in the middle: half its width and height
+  std::optional<DaisySphere> sphere = {};  // that is laid flat on it; of the element's own only
 };
 
 /// An element with all its widgets at their places. It refers to the element.
@@ -58,8 +58,11 @@ struct ElementLayout {
   std::vector<LaidWidget> widgets;
   std::size_t language = 0;
 
-  /// The widget there, topmost sheet first; null: none.
+  /// The widget there, topmost sheet first; null: none. On a sphere it is the nearest in its cone.
   const LaidWidget* at(const Vector2& place) const;
+
+ private:
+  const LaidWidget* in_cone(const Vector2& front) const;
 };
 
 /// Lays the element out, in one of its languages, with the menus of `open` beside the items that open them,

@@ -149,6 +149,7 @@ std::optional<Choice> ElementUse::point(const ElementPointer& pointer) {
   const bool over = over_sheets(place);
   near_ = over && std::abs(front) < element_.choosing.near;
   if (near_ && pointed_) near_seconds_ += std::max(0.0, pointer.time - time_);
+  if (near_) front_ = place;
   fade(distance, pointer.time);
   close_when_far(distance, pointer.time);
   side_ = over ? haptics::next_side(side_, front, 0.0, ground_) : haptics::PanelSide::Unknown;
@@ -166,6 +167,27 @@ std::optional<Choice> ElementUse::point(const ElementPointer& pointer) {
   if (!can_light || (!clicked && !pushed_in)) return std::nullopt;
   set_by_place(*under->widget, place);
   return choose(*under->widget, clicked ? ChosenBy::Click : ChosenBy::Push);
+}
+
+std::optional<Choice> ElementUse::look(const Ray& gaze, bool button, double time) {
+  const double towards = gaze.direction.dot(frame_.normal());
+  const double away = towards < 0.0 ? (frame_.centre - gaze.origin).dot(frame_.normal()) / towards : -1.0;
+  const Vector2 place = frame_.projected(gaze.origin + std::max(away, 0.0) * gaze.direction);
+  near_ = away > 0.0 && over_sheets(place);
+  if (near_) {
+    front_ = place;
+    if (started_) near_seconds_ += std::max(0.0, time - time_);
+  }
+  fade(near_ ? 0.0 : std::numeric_limits<double>::infinity(), time);
+  far_since_ = time;
+  const LaidWidget* const under = near_ ? layout_.at(place) : nullptr;
+  const bool can_light = under != nullptr && under->widget->can_be_chosen() && under->widget->enabled;
+  const Widget* const pointed_at = can_light ? under->widget : nullptr;
+  if (std::exchange(pointed_at_, pointed_at) != pointed_at) lit_ = pointed_at;
+  const bool was_released = std::exchange(button_, button) && !button;
+  if (!can_light || !was_released) return std::nullopt;
+  set_by_place(*under->widget, place);
+  return choose(*under->widget, ChosenBy::Look);
 }
 
 std::optional<Choice> ElementUse::choose(const Widget& widget, ChosenBy by) {
@@ -227,6 +249,7 @@ void ElementUse::move_light(int by) {
   std::ptrdiff_t next = by > 0 ? 0 : count - 1;
   if (found != way.end()) next = ((found - way.begin()) + by + count) % count;
   lit_ = way[std::size_t(next)];
+  if (sheet == 0) front_ = std::ranges::find(layout_.widgets, lit_, &LaidWidget::widget)->centre;
 }
 
 /// The light goes to the menu that the lit item opens, or back to the item that opened its own.

@@ -7,6 +7,7 @@
 #include "haptics/effects/panel.h"
 #include "interaction/elements/element_frame.h"
 #include "interaction/elements/element_layout.h"
+#include "interaction/navigation.h"
 
 namespace icome::interaction {
 
@@ -17,7 +18,7 @@ struct ElementPointer {
   bool button = false;  // is it down?
 };
 
-enum class ChosenBy : std::uint8_t { Click, Push, Key, Name };
+enum class ChosenBy : std::uint8_t { Click, Push, Key, Name, Look };
 
 /// A widget that was chosen.
 struct Choice {
@@ -40,6 +41,10 @@ class ElementUse {
   /// Takes the pointer; called at any rate, also once a tick. Gives what it chose, which is told once: a push
   /// counts again only when the hand has come back nearly to the plane (hysteresis).
   std::optional<Choice> point(const ElementPointer& pointer);
+  /// Takes the way that the eye looks, in the frame of the element's place, and whether the button is down: the
+  /// look-at menu of CHIMP (thesis 2.3.1). What is looked at lights up, and is chosen when the button is
+  /// released, also if it was down at the first call already.
+  std::optional<Choice> look(const Ray& gaze, bool button, double time);
   /// Lets time pass without a pointer. An element that somebody attends to, such as with keys, fades in.
   void rest(double time, bool attended);
   /// The next pointer is another one: a button that it holds is no click, and it comes from anywhere.
@@ -55,6 +60,8 @@ class ElementUse {
   const std::vector<const Widget*>& open() const { return open_; }
   /// The widget that the pointer or a key has lit up; null: none.
   const Widget* lit() const { return lit_; }
+  /// The place of the element's own sheet that is in front, of a daisy: the pointer's, or that of a key's light.
+  const Vector2& front() const { return front_; }
   /// Is the pointer near an element that is open (thesis 5.7.2)?
   bool is_near() const { return near_; }
   /// The distance of a place to the nearest sheet, in the element's metres.
@@ -107,6 +114,7 @@ class ElementUse {
   double far_since_ = 0.0;     // s
   double near_seconds_ = 0.0;  // s
   bool button_ = false;
+  Vector2 front_ = Vector2::Zero();
   haptics::PanelSide side_ = haptics::PanelSide::Unknown;
   bool armed_ = true;  // may a push count?
   std::uint64_t pushes_ = 0;

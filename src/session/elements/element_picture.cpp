@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "charts/canvas.h"
@@ -27,6 +28,7 @@ using interaction::WidgetKind;
 constexpr double kMillimetres = 1000.0;  // a page unit is a millimetre
 constexpr double kCapital = 0.729;       // height of a capital letter of DejaVu Sans, of its size
 constexpr double kMostPixels = 4096.0;
+constexpr double kTitleRoom = 2.4;       // heights of a capital letter, above and below the ball of a daisy
 
 struct Colours {
   Colour paper, ink, quiet, line, lit, on_lit, title, on_title;
@@ -50,24 +52,45 @@ Colours colours_of(ElementTheme theme) {
 /// Draws one sheet; the page's y grows downward from the sheet's upper edge.
 class SheetPainter {
  public:
-  SheetPainter(const interaction::ElementUse& use, std::size_t sheet, const Colours& colours, Canvas& canvas)
+  /// `sheet` is what of the element's plane the page shows.
+  SheetPainter(const interaction::ElementUse& use, const LaidSheet& sheet, const Colours& colours,
+               Canvas& canvas)
       : use_(use),
-        sheet_(use.layout().sheets[sheet]),
-        number_(sheet),
+        sheet_(sheet),
         colours_(colours),
         canvas_(canvas),
         unit_(use.element().text_height * kMillimetres) {}
 
-  void paint() {
+  /// A sheet of that number, with all that lies on it.
+  void paint(std::size_t number) {
     canvas_.fill({0.0, 0.0, canvas_.width(), canvas_.height()}, colours_.paper);
     const auto& widgets = use_.layout().widgets;
-    const auto here = [&](const LaidWidget& laid) { return laid.sheet == number_; };
+    const auto here = [&](const LaidWidget& laid) { return laid.sheet == number; };
     marks_ = std::ranges::any_of(widgets, [&](const LaidWidget& it) { return here(it) && has_mark(it); });
     icons_ = std::ranges::any_of(widgets,
                                  [&](const LaidWidget& it) { return here(it) && !it.widget->icon.empty(); });
     paint_title();
     for (const LaidWidget& laid : widgets)
       if (here(laid)) paint_widget(laid);
+  }
+
+  /// A widget alone, as large as the page.
+  void paint_alone(const LaidWidget& laid) {
+    canvas_.fill({0.0, 0.0, canvas_.width(), canvas_.height()}, colours_.paper);
+    paint_widget(laid);
+  }
+
+  /// The ball behind the tiles of a daisy, with the title above it and the mouth of its cone in front.
+  void paint_ball(const interaction::DaisySphere& sphere) {
+    const Vector2 middle = page(Vector2::Zero());
+    const double radius = sphere.radius * kMillimetres;
+    canvas_.fill_disc(middle, radius, colours_.title);
+    canvas_.circle(middle, radius - 0.05 * unit_, {colours_.line, 0.1 * unit_, {}});
+    canvas_.circle(middle, radius * std::sin(sphere.cone), {colours_.line, 0.1 * unit_, {}});
+    if (sheet_.title.empty()) return;
+    auto look = style(colours_.ink, true);
+    look.align = 0.5;
+    canvas_.text({middle.x(), 1.7 * unit_}, sheet_.title, look);
   }
 
  private:
@@ -226,7 +249,6 @@ class SheetPainter {
 
   const interaction::ElementUse& use_;
   const LaidSheet& sheet_;
-  std::size_t number_;
   const Colours& colours_;
   Canvas& canvas_;
   double unit_;  // mm, height of a capital letter
@@ -253,16 +275,18 @@ double outside_sheet(const interaction::ElementUse& use, std::size_t number, con
   return least;
 }
 
-/// Cuts the sheet out of its page, with a line round it, and premultiplies.
-void cut_out(const interaction::ElementUse& use, std::size_t sheet, const Colour& line, double resolution,
+/// How far a place of the plane lies outside what is seen, m.
+using Outside = std::function<double(const Vector2&)>;
+
+/// Cuts what is seen out of its page, with a line round it, and premultiplies.
+void cut_out(const LaidSheet& laid, const Outside& outside, const Colour& line, double resolution,
              charts::Image& image) {
-  const LaidSheet& laid = use.layout().sheets[sheet];
   const std::array<double, 3> rim{line.red, line.green, line.blue};
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const Vector2 place = laid.centre + Vector2((x + 0.5) / resolution - laid.half.x(),
                                                   laid.half.y() - (y + 0.5) / resolution);
-      const double away = outside_sheet(use, sheet, place) * resolution;
+      const double away = outside(place) * resolution;
       const double inside = std::clamp(0.5 - away, 0.0, 1.0);
       const double border = std::clamp(away + 2.5, 0.0, 1.0);
       std::uint8_t* const bytes =
@@ -275,41 +299,81 @@ void cut_out(const interaction::ElementUse& use, std::size_t sheet, const Colour
     }
 }
 
+/// Draws a page of the element's plane, and cuts out what is seen of it.
+charts::Image drawn_page(const interaction::ElementUse& use, const LaidSheet& page, ElementTheme theme,
+                         double resolution, const Outside& outside,
+                         const std::function<void(SheetPainter&)>& paint) {
+  resolution = std::min(resolution, 0.5 * kMostPixels / page.half.maxCoeff());
+  const Vector2 size = 2.0 * resolution * page.half;
+  const Colours colours = colours_of(theme);
+  Canvas canvas(std::max(1, int(std::lround(size.x()))), std::max(1, int(std::lround(size.y()))),
+                resolution / kMillimetres);
+  SheetPainter painter(use, page, colours, canvas);
+  paint(painter);
+  charts::Image image = canvas.snapshot();
+  cut_out(page, outside, colours.line, resolution, image);
+  return image;
+}
+
 }  // namespace
 
 charts::Image draw_sheet(const interaction::ElementUse& use, std::size_t sheet, ElementTheme theme,
                          double resolution) {
-  const LaidSheet& laid = use.layout().sheets[sheet];
-  resolution = std::min(resolution, 0.5 * kMostPixels / laid.half.maxCoeff());
-  const Vector2 size = 2.0 * resolution * laid.half;
+  return drawn_page(
+      use, use.layout().sheets[sheet], theme, resolution,
+      [&](const Vector2& place) { return outside_sheet(use, sheet, place); },
+      [&](SheetPainter& painter) { painter.paint(sheet); });
+}
+
+charts::Image draw_tile(const interaction::ElementUse& use, const LaidWidget& laid, ElementTheme theme,
+                        double resolution) {
+  LaidSheet page;
+  page.centre = laid.centre;
+  page.half = laid.half;
+  const double round = 0.6 * use.element().text_height;
+  return drawn_page(
+      use, page, theme, resolution,
+      [&](const Vector2& place) { return outside(place - laid.centre, laid.half, round); },
+      [&](SheetPainter& painter) { painter.paint_alone(laid); });
+}
+
+interaction::Vector2 half_of_ball(const interaction::ElementUse& use) {
+  const LaidSheet& sheet = use.layout().sheets.front();
+  const double title = sheet.title.empty() ? 0.0 : kTitleRoom * use.element().text_height;
+  return {std::max(sheet.sphere->radius, sheet.title_half.x()), sheet.sphere->radius + title};
+}
+
+charts::Image draw_look_mark(ElementTheme theme) {
+  constexpr int kSide = 29;  // pixels
   const Colours colours = colours_of(theme);
-  Canvas canvas(std::max(1, int(std::lround(size.x()))), std::max(1, int(std::lround(size.y()))),
-                resolution / kMillimetres);
-  SheetPainter(use, sheet, colours, canvas).paint();
+  Canvas canvas(kSide, kSide, 1.0);
+  const Vector2 middle = Vector2::Constant(0.5 * kSide);
+  canvas.circle(middle, 11.0, {colours.paper, 5.0, {}});
+  canvas.circle(middle, 11.0, {colours.lit, 2.0, {}});
+  canvas.fill_disc(middle, 2.0, colours.lit);
   charts::Image image = canvas.snapshot();
-  cut_out(use, sheet, colours.line, resolution, image);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const double away = (Vector2(x + 0.5, y + 0.5) - middle).norm();
+      const double seen = std::max(std::clamp(3.5 - std::abs(away - 11.0), 0.0, 1.0), std::clamp(3.0 - away, 0.0, 1.0));
+      std::uint8_t* const bytes = image.rgba.data() + 4 * std::ptrdiff_t(y * kSide + x);
+      for (int i = 0; i < 3; ++i) bytes[i] = std::uint8_t(std::lround(seen * bytes[i]));
+      bytes[3] = std::uint8_t(std::lround(255.0 * seen));
+    }
   return image;
 }
 
-void place_panel(const interaction::ElementUse& use, std::size_t sheet, render::SceneOverlay::Panel& panel) {
-  const LaidSheet& laid = use.layout().sheets[sheet];
-  const interaction::ElementFrame& frame = use.frame();
-  const Vector2 half = frame.size * laid.half;
-  panel.at = frame.in_world(laid.centre);
-  panel.lying = {half.x() * frame.right(), half.y() * frame.up()};
-  panel.alpha = use.opacity();
-}
-
-std::vector<render::SceneOverlay::Panel> panels_of(const interaction::ElementUse& use, ElementTheme theme,
-                                                   double resolution) {
-  std::vector<render::SceneOverlay::Panel> panels;
-  for (std::size_t i = 0; i < use.layout().sheets.size(); ++i) {
-    render::SceneOverlay::Panel panel;
-    panel.picture = std::make_shared<charts::Image>(draw_sheet(use, i, theme, resolution));
-    place_panel(use, i, panel);
-    panels.push_back(std::move(panel));
-  }
-  return panels;
+charts::Image draw_ball(const interaction::ElementUse& use, ElementTheme theme, double resolution) {
+  LaidSheet page = use.layout().sheets.front();
+  page.half = half_of_ball(use);
+  const double top = page.half.y() - 0.5 * kTitleRoom * use.element().text_height;
+  const auto outside_ball = [&](const Vector2& place) {
+    const double of_ball = place.norm() - page.sphere->radius;
+    if (page.title.empty()) return of_ball;
+    return std::min(of_ball, outside(place - Vector2(0.0, top), page.title_half, 0.001));
+  };
+  return drawn_page(use, page, theme, resolution, outside_ball,
+                    [&](SheetPainter& painter) { painter.paint_ball(*page.sphere); });
 }
 
 }  // namespace icome::session

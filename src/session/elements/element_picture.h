@@ -1,26 +1,30 @@
 #pragma once
 #include <cstdint>
-#include <memory>
-#include <vector>
 
 #include "charts/image.h"
 #include "interaction/elements/element_use.h"
-#include "render/scene/scene_renderer.h"
 
 namespace icome::session {
 
 enum class ElementTheme : std::uint8_t { Light, Dark, HighContrast };
 
-/// A sheet of an element as it is now, lit, ticked and set: sRGB, premultiplied, clear round its border.
-/// `resolution` in pixels a metre, > 0; it is lowered where the picture would have a side above 4096 pixels.
+// All pictures are sRGB, premultiplied, and clear round their border. `resolution` is in pixels a metre, > 0;
+// it is lowered where a picture would have a side above 4096 pixels.
+
+/// A sheet of an element as it is now, lit, ticked and set.
 charts::Image draw_sheet(const interaction::ElementUse& use, std::size_t sheet, ElementTheme theme,
                          double resolution);
 
-/// Puts the picture of a sheet where that lies in the scene, with the element's opacity.
-void place_panel(const interaction::ElementUse& use, std::size_t sheet, render::SceneOverlay::Panel& panel);
+/// A widget that lies by itself, such as on the sphere of a daisy.
+charts::Image draw_tile(const interaction::ElementUse& use, const interaction::LaidWidget& laid,
+                        ElementTheme theme, double resolution);
 
-/// All its sheets as they lie in the scene.
-std::vector<render::SceneOverlay::Panel> panels_of(const interaction::ElementUse& use, ElementTheme theme,
-                                                   double resolution);
+/// The ball of a daisy, without what lies on it. Precondition: the element is one.
+charts::Image draw_ball(const interaction::ElementUse& use, ElementTheme theme, double resolution);
+/// Half the width and height of that picture, m in the element's plane; the ball is in its middle.
+interaction::Vector2 half_of_ball(const interaction::ElementUse& use);
+
+/// A mark for the place where the eye looks.
+charts::Image draw_look_mark(ElementTheme theme);
 
 }  // namespace icome::session

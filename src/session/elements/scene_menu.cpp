@@ -26,6 +26,11 @@ void enable_widgets(std::vector<Widget>& widgets,
   }
 }
 
+bool is_same_panel(const render::SceneOverlay::Panel& one, const render::SceneOverlay::Panel& other) {
+  return one.picture == other.picture && one.alpha == other.alpha && one.at == other.at &&
+         one.lying == other.lying;
+}
+
 void add_settings(const std::vector<Widget>& widgets, const ElementUse& use, world::Hasher& hasher) {
   for (const Widget& widget : widgets) {
     hasher.add(widget.enabled);
@@ -51,7 +56,7 @@ void SceneMenu::close() {
   sheets_.let_go();
   use_.reset();
   hand_.reset();
-  mouse_presses_ = false;
+  presses_ = false;
 }
 
 std::optional<MenuChoice> SceneMenu::told(const std::optional<Choice>& choice) const {
@@ -105,15 +110,41 @@ std::optional<base::Vector3> SceneMenu::met_by(const interaction::Ray& way) cons
 std::optional<MenuChoice> SceneMenu::point_by_mouse(const interaction::Ray& way, bool button, double now) {
   const auto met = met_by(way);
   if (!met) return std::nullopt;
+  if (is_looked_at()) {
+    attended_ = true;
+    return told(use_->look(way, presses_ = button, now));
+  }
   const interaction::ElementFrame& frame = use_->frame();
   if (!std::exchange(attended_, true)) use_->change_pointer();
   hand_.reset();
   const double before = kMouseShare * element_.choosing.near * frame.size;
   interaction::ElementPointer at{now, *met + before * frame.normal(), false};
   // A press is a click also where no motion of the mouse was told before it.
-  if (std::exchange(mouse_presses_, button) != button) use_->point(at);
+  if (std::exchange(presses_, button) != button) use_->point(at);
   at.button = button;
   return told(use_->point(at));
+}
+
+std::vector<MenuChoice> SceneMenu::look(const interaction::Ray& gaze, std::span<const MenuTick> ticks,
+                                        double now) {
+  const bool looks_elsewhere =
+      gaze.origin != gaze_.origin || gaze.direction != gaze_.direction;
+  gaze_ = gaze;
+  if (looks_elsewhere) attended_ = false;
+  std::vector<MenuChoice> chosen;
+  for (const MenuTick& tick : ticks) {
+    if (!hand_ && tick.at.button) hand_ = tick.hand;
+    if (tick.hand != hand_ || tick.at.button == presses_) continue;
+    attended_ = false;
+    presses_ = tick.at.button;
+    if (auto choice = told(use_->look(gaze, presses_, tick.at.time))) chosen.push_back(std::move(*choice));
+  }
+  if (attended_) {
+    use_->rest(now, true);
+  } else {
+    use_->look(gaze, presses_, now);
+  }
+  return chosen;
 }
 
 std::optional<MenuChoice> SceneMenu::press(interaction::ElementKey key) {
@@ -145,22 +176,19 @@ bool SceneMenu::draw(ElementTheme theme) {
   if (!use_) {
     drawn_ = 0;
     const bool had_panels = !panels_.empty();
+    parts_.clear();
     panels_.clear();
     return had_panels;
   }
   const std::uint64_t now = looks(theme);
   if (std::exchange(drawn_, now) != now) {
-    panels_ = panels_of(*use_, theme, kResolution);
-    return true;
+    parts_ = draw_parts(*use_, theme, kResolution);
+    mark_.picture = is_looked_at() ? std::make_shared<charts::Image>(draw_look_mark(theme)) : nullptr;
   }
-  bool changed = false;
-  for (std::size_t i = 0; i < panels_.size(); ++i) {
-    render::SceneOverlay::Panel moved = panels_[i];
-    place_panel(*use_, i, moved);
-    changed = changed || moved.alpha != panels_[i].alpha || moved.at != panels_[i].at ||
-              moved.lying != panels_[i].lying;
-    panels_[i] = std::move(moved);
-  }
+  std::vector<render::SceneOverlay::Panel> placed = placed_parts(*use_, parts_);
+  if (mark_.picture) placed.push_back(mark_);
+  const bool changed = !std::ranges::equal(placed, panels_, is_same_panel);
+  panels_ = std::move(placed);
   return changed;
 }
 

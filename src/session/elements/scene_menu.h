@@ -8,7 +8,7 @@
 
 #include "interaction/elements/element_use.h"
 #include "interaction/navigation.h"
-#include "session/elements/element_picture.h"
+#include "session/elements/element_panels.h"
 #include "session/elements/felt_sheets.h"
 
 namespace icome::session {
@@ -38,6 +38,8 @@ class SceneMenu {
   void open(interaction::Element element, std::size_t language, interaction::TextMeasure measure,
             const interaction::ElementFrame& frame);
   void close();
+  /// Is it open, and chosen from by looking? Hands neither use nor feel it then.
+  bool is_looked_at() const { return use_ && use_->element().choosing.by_look; }
   /// The open element; null: none is.
   const interaction::ElementUse* use() const { return use_ ? &*use_ : nullptr; }
 
@@ -51,6 +53,10 @@ class SceneMenu {
   std::optional<MenuChoice> point_by_mouse(const interaction::Ray& way, bool button, double now);
   /// The place where a way meets a sheet, stage frame; nothing: it meets none.
   std::optional<base::Vector3> met_by(const interaction::Ray& way) const;
+  /// As take(), for an element that is chosen from by looking: the eye looks along that way, and the first hand
+  /// that presses its button holds it. A mouse that has pointed at the element stands for the eye until the eye
+  /// looks elsewhere.
+  std::vector<MenuChoice> look(const interaction::Ray& gaze, std::span<const MenuTick> ticks, double now);
   std::optional<MenuChoice> press(interaction::ElementKey key);
   std::optional<MenuChoice> choose(std::string_view name_or_text);
   /// Enables the widgets of the names in question, or not; others stay as they are.
@@ -59,7 +65,7 @@ class SceneMenu {
   std::optional<std::size_t> hand() const { return hand_; }
 
   /// FeltSheets::follow(); also after close(), until all has faded.
-  bool follow(double now) { return sheets_.follow(use(), now); }
+  bool follow(double now) { return sheets_.follow(is_looked_at() ? nullptr : use(), now); }
   const std::vector<haptics::PlacedEffect>& effects() const { return sheets_.effects(); }
   /// Draws what has changed; true: panels() are others now.
   bool draw(ElementTheme theme);
@@ -73,11 +79,14 @@ class SceneMenu {
   interaction::Element element_;
   std::optional<interaction::ElementUse> use_;  // refers to element_
   FeltSheets sheets_{kFirstSheet};
+  std::vector<ElementPart> parts_;
+  render::SceneOverlay::Panel mark_ = {.picture = {}, .in_window = {0.5, 0.5}};  // where the eye looks
   std::vector<render::SceneOverlay::Panel> panels_;
   std::uint64_t drawn_ = 0;  // looks() of the pictures
   std::optional<std::size_t> hand_ = {};
-  bool attended_ = false;       // by mouse or keys
-  bool mouse_presses_ = false;  // its button is down
+  bool attended_ = false;      // by mouse or keys
+  bool presses_ = false;       // the button of the mouse, or of the hand that looks, is down
+  interaction::Ray gaze_ = {};  // of the last look
 };
 
 }  // namespace icome::session
