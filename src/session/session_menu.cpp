@@ -103,9 +103,11 @@ interaction::Ray SessionParts::gaze() const {
   return {eye.translation(), -eye.linear().col(2)};
 }
 
-/// Is that pointer the hand that uses the menu, and near it? Its button is the menu's then.
+/// Is that pointer the hand that uses the menu, and near it, or is the menu looked at? Its button is the
+/// menu's then.
 bool SessionParts::is_at_menu(std::size_t pointer) const {
-  return menu.use() != nullptr && menu.hand() == pointer && menu.use()->is_near();
+  if (menu.use() == nullptr || !menu.use()->is_near()) return false;
+  return menu.is_looked_at() || menu.hand() == pointer;
 }
 
 void SessionParts::use_menu() {
