@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -48,6 +49,18 @@ class EditHistory {
     undo_.push_back(std::move(*back));
     redo_.clear();
     return {};
+  }
+
+  /// All edits that `work` performs are one step that can be undone.
+  template <typename Work>
+  void as_one_step(Work&& work) {
+    const std::size_t before = undo_.size();
+    work();
+    if (undo_.size() <= before + 1) return;
+    Edit joined;
+    for (; undo_.size() > before; undo_.pop_back())
+      std::move(undo_.back().begin(), undo_.back().end(), std::back_inserter(joined));
+    undo_.push_back(std::move(joined));
   }
 
   /// False where there is nothing to take back, or to do again, or the sink refuses.

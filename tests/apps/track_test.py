@@ -189,6 +189,25 @@ class Track(unittest.TestCase):
         self.assertAlmostEqual(float(re.search(r"base_angle_deg = ([\d.]+)", text).group(1)), 70, delta=0.6)
         self.assertIn("already", run(one, "--learn", "--known", listed, "--id", "boat", code=1).stderr)
 
+    def test_colours_are_measured_and_kept_in_the_view(self):
+        one = self.folder / "shown"
+        run("--synth", one, "--frames", 3, "--triangles", 1, "--still")
+        before = (one / "view.toml").read_text()
+        answer = json.loads(run(one, "--view", one / "view.toml", "--colours", "--json").stdout)
+        self.assertEqual(answer["frames"], 3)
+        (table, triangle) = answer["table_rgb"], answer["triangle_rgb"]
+        self.assertGreater(table[0], 2 * max(table[1:]))
+        self.assertGreater(triangle[2], 2 * triangle[0])
+        after = (one / "view.toml").read_text()
+        self.assertTrue(after.startswith(before.rstrip()))
+        self.assertIn("[colours]", after)
+        run(one, "--known", one / "known.toml", "--view", one / "view.toml")
+        empty = self.folder / "empty"
+        run("--synth", empty, "--frames", 1, "--triangles", 0, "--still")
+        told = run(empty, "--view", empty / "view.toml", "--colours", code=1).stderr
+        self.assertIn("nothing on it is bluer", told)
+        self.assertNotIn("[colours]", (empty / "view.toml").read_text())
+
     def test_damaged_picture_is_told_and_the_rest_tracked(self):
         damaged = self.folder / "damaged"
         damaged.mkdir()

@@ -56,6 +56,8 @@ class AnimationRunner {
   /// Applies an edit that was made elsewhere, such as at the end of a drag or a recording, as one step to
   /// undo. Fails as apply_edit().
   base::Result<void> perform(const ProjectEdit& edit) { return history_.perform(edit); }
+  /// All that `work` performs is one step to undo.
+  void as_one_step(const std::function<void()>& work) { history_.as_one_step(work); }
   /// Takes back, or does again, one step; false where there is none.
   bool undo() { return history_.undo(); }
   bool redo() { return history_.redo(); }

@@ -12,6 +12,7 @@
 #include "cutout/calibration/calibration.h"
 #include "cutout/calibration/learning.h"
 #include "cutout/calibration/sheet.h"
+#include "cutout/calibration/table_colours.h"
 #include "cutout/synth/synthetic_table.h"
 #include "io/new_file.h"
 
@@ -85,7 +86,62 @@ base::Result<std::size_t> take_frames(const TrackOptions& options, cutout::Calib
   return frames;
 }
 
+/// Measures something in frames of the source, until it was measured often enough or the source ends.
+template <typename Measured, typename Measure>
+base::Result<std::vector<Measured>> measured_in_frames(const TrackOptions& options, const Measure& measure) {
+  auto source = open_for(options);
+  if (!source) return tl::unexpected(source.error());
+  std::optional<cutout::TableView> view;
+  std::vector<Measured> measured;
+  std::string why = "no frame could be read";
+  FrameComplaints complaints;
+  for (std::size_t frames = 0; measured.size() < kLearnFrames && frames < 20 * kLearnFrames && !interrupted();
+       ++frames) {
+    auto frame = (*source)->next([] { return interrupted(); });
+    if (!frame) return tl::unexpected(frame.error());
+    if (!*frame) break;
+    complaints.look_at(**frame);
+    if (!view) {
+      const auto made = view_for(options, **frame);
+      if (!made) return tl::unexpected(made.error());
+      view.emplace(*made);
+    }
+    if (const auto one = measure((*frame)->view(), *view)) {
+      measured.push_back(*one);
+    } else {
+      why = one.error().message;
+    }
+  }
+  if (measured.empty()) return base::fail(fmt::format("{}: {}", options.source, why));
+  return measured;
+}
+
+std::string rgb_of(const std::array<double, 3>& bgr) {
+  return fmt::format("rgb({:.0f}, {:.0f}, {:.0f})", bgr[2], bgr[1], bgr[0]);
+}
+
 }  // namespace
+
+int run_track_colours(const TrackOptions& options) {
+  auto view = cutout::read_table_view(options.view);
+  if (!view) return track_failed(view.error());
+  const auto measured = measured_in_frames<cutout::TableColours>(options, cutout::measure_colours);
+  if (!measured) return track_failed(measured.error());
+  const cutout::TableColours colours = cutout::mean_of(*measured);
+  view->set_colours(colours);
+  if (const auto written = cutout::write_table_view(*view, options.view); !written)
+    return track_failed(written.error());
+  if (options.json) {
+    const auto rgb = [](const std::array<double, 3>& bgr) { return Json{bgr[2], bgr[1], bgr[0]}; };
+    const Json json = {{"view", options.view.string()},
+                       {"frames", measured->size()},
+                       {"table_rgb", rgb(colours.table_bgr)},
+                       {"triangle_rgb", rgb(colours.triangle_bgr)}};
+    return print_answer(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  }
+  return print_answer(fmt::format("{}: the table is {}, the triangle {}, by {} frames\n", options.view.string(),
+                                  rgb_of(colours.table_bgr), rgb_of(colours.triangle_bgr), measured->size()));
+}
 
 int run_track_calibrate(const TrackOptions& options) {
   cutout::Calibration calibration(calibration_settings(options));
@@ -139,32 +195,9 @@ int run_track_learn(const TrackOptions& options) {
     if (triangle.id == options.id)
       return track_failed(
           {fmt::format("{}: there is a triangle '{}' already", options.known.string(), options.id)});
-  auto source = open_for(options);
-  if (!source) return track_failed(source.error());
-  std::optional<cutout::TableView> view;
-  std::vector<cutout::LearntTriangle> measured;
-  std::string why = "no frame could be read";
-  FrameComplaints complaints;
-  for (std::size_t frames = 0; measured.size() < kLearnFrames && frames < 20 * kLearnFrames && !interrupted();
-       ++frames) {
-    auto frame = (*source)->next([] { return interrupted(); });
-    if (!frame) return track_failed(frame.error());
-    if (!*frame) break;
-    complaints.look_at(**frame);
-    if (!view) {
-      const auto made = view_for(options, **frame);
-      if (!made) return track_failed(made.error());
-      view.emplace(*made);
-    }
-    const auto learnt = cutout::learn_triangle((*frame)->view(), *view);
-    if (learnt) {
-      measured.push_back(*learnt);
-    } else {
-      why = learnt.error().message;
-    }
-  }
-  if (measured.empty()) return track_failed({fmt::format("{}: {}", options.source, why)});
-  const cutout::LearntTriangle learnt = cutout::middle_of(measured);
+  const auto measured = measured_in_frames<cutout::LearntTriangle>(options, cutout::learn_triangle);
+  if (!measured) return track_failed(measured.error());
+  const cutout::LearntTriangle learnt = cutout::middle_of(*measured);
   known.triangles.push_back({options.id, learnt.base_angle, learnt.height, options.cell});
   // The text is read as anybody would read it, before it takes the place of the list.
   const std::string text = cutout::known_triangles_text(known);
@@ -178,7 +211,7 @@ int run_track_learn(const TrackOptions& options) {
   return print_answer(
       fmt::format("{}: '{}' has base angles of {:.2f} degrees and a height of {:.2f} mm, by {} frames\n",
                   options.known.string(), options.id, learnt.base_angle * kRadianInDegrees, learnt.height,
-                  measured.size()));
+                  measured->size()));
 }
 
 }  // namespace icome::apps

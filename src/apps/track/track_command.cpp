@@ -12,6 +12,7 @@ int run_track(const TrackOptions& options) {
   if (options.task == "synth") return run_track_synth(options);
   if (options.task == "calibrate") return run_track_calibrate(options);
   if (options.task == "learn") return run_track_learn(options);
+  if (options.task == "colours") return run_track_colours(options);
   return run_tracking(options);
 }
 

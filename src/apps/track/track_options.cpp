@@ -17,6 +17,7 @@ constexpr const char* kTrackNotes =
     "  icome track shot.jpg --known mine.toml --picture found.png\n"
     "  icome track 'frames/*.png' --known mine.toml --table 600x400 --json\n"
     "  icome track camera --known mine.toml --view view.toml --learn --id boat\n"
+    "  icome track camera --view view.toml --colours      the table with one triangle on it, and nothing else\n"
     "  icome track --synth made --frames 100 --triangles 12 --hands --occlude 0.5\n"
     "  icome track made --known made/known.toml --view made/view.toml --truth made/truth.json\n"
     "\n"
@@ -95,7 +96,12 @@ void add_tracking(CLI::App& track, TrackOptions& options) {
   track.add_flag("--json", options.json, "Print what is found as JSON (fields below)");
 }
 
-void add_preparing(CLI::App& track, TrackOptions& options, bool& learn) {
+/// Tasks that are chosen by flags.
+struct Preparing {
+  bool learn = false, colours = false;
+};
+
+void add_preparing(CLI::App& track, TrackOptions& options, Preparing& preparing) {
   track
       .add_option("--sheet", options.sheet, "Draw the chessboard and the triangles of --known, at true size")
       ->type_name("OUT.pdf");
@@ -116,7 +122,9 @@ void add_preparing(CLI::App& track, TrackOptions& options, bool& learn) {
   track.add_option("--thickness", options.thickness, "Of the triangles, mm (default 3)")
       ->type_name("MM")
       ->check(number_range(0.0, 50.0));
-  track.add_flag("--learn", learn, "Measure the one triangle on the table and add it to --known as --id");
+  track.add_flag("--colours", preparing.colours,
+                 "Measure the colours of the table and of the one triangle on it, and keep them in --view");
+  track.add_flag("--learn", preparing.learn, "Measure the one triangle on the table and add it to --known as --id");
   track.add_option("--id", options.id, "With --learn: its name")->type_name("NAME");
   track.add_option("--cell", options.cell, "With --learn: the animation's cell that it moves")
       ->type_name("NAME");
@@ -161,14 +169,17 @@ void add_making(CLI::App& track, TrackOptions& options) {
 }
 
 /// Chooses the task, and throws where the options of several are mixed.
-void choose_task(TrackOptions& options, bool learn) {
+void choose_task(TrackOptions& options, const Preparing& preparing) {
+  const auto& [learn, colours] = preparing;
   const int named = int(!options.sheet.empty()) + int(!options.calibrate.empty()) +
-                    int(!options.synth.empty()) + int(learn);
-  if (named > 1) throw CLI::ValidationError("--sheet, --calibrate, --learn and --synth go one at a time.");
+                    int(!options.synth.empty()) + int(learn) + int(colours);
+  if (named > 1)
+    throw CLI::ValidationError("--sheet, --calibrate, --colours, --learn and --synth go one at a time.");
   options.task = !options.sheet.empty()       ? "sheet"
                  : !options.calibrate.empty() ? "calibrate"
                  : !options.synth.empty()     ? "synth"
                  : learn                      ? "learn"
+                 : colours                    ? "colours"
                                               : "track";
   const bool needs_source = options.task != "sheet" && options.task != "synth";
   if (needs_source && options.source.empty()) throw CLI::RequiredError("SOURCE");
@@ -176,6 +187,7 @@ void choose_task(TrackOptions& options, bool learn) {
     throw CLI::ValidationError("--" + options.task + " takes no SOURCE.");
   if ((options.task == "track" || learn) && options.known.empty()) throw CLI::RequiredError("--known");
   if (learn && options.id.empty()) throw CLI::RequiredError("--id");
+  if (colours && options.view.empty()) throw CLI::RequiredError("--view");
 }
 
 }  // namespace
@@ -184,11 +196,11 @@ void add_track(CLI::App& app, TrackOptions& options) {
   CLI::App& track = *app.add_subcommand(
       "track", "Follow blue triangles of plastic on a red table with a camera (tangible cut-out animation)");
   track.footer(kTrackNotes);
-  const auto learn = std::make_shared<bool>(false);
+  const auto preparing = std::make_shared<Preparing>();
   add_tracking(track, options);
-  add_preparing(track, options, *learn);
+  add_preparing(track, options, *preparing);
   add_making(track, options);
-  track.callback([&options, learn] { choose_task(options, *learn); });
+  track.callback([&options, preparing] { choose_task(options, *preparing); });
 }
 
 }  // namespace icome::apps

@@ -12,7 +12,7 @@ namespace icome::apps {
 
 /// The options of icome track.
 struct TrackOptions {
-  std::string task;  // "track", "sheet", "synth", "calibrate" or "learn"; empty: none was named
+  std::string task;  // "track", "sheet", "synth", "calibrate", "learn" or "colours"; empty: none was named
   std::string source;
   std::filesystem::path known;
 

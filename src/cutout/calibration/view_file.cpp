@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "cutout/tracker/edges/colour_classes.h"
 #include "cutout/tracker/table_view.h"
 #include "io/file_bytes.h"
 #include "io/key_reader.h"
@@ -56,10 +57,34 @@ Lens read_lens(io::KeyReader& keys, io::Problems& problems) {
   return lens;
 }
 
+std::array<double, 3> read_colour(io::KeyReader& keys, const char* key) {
+  keys.require(key, fmt::format("{} = [red, green, blue], each 0 to 255", key));
+  const auto rgb = keys.point(key, 255.0);
+  return rgb ? std::array{rgb->z(), rgb->y(), rgb->x()} : std::array<double, 3>{};
+}
+
+std::optional<TableColours> read_colours(io::KeyReader& keys, io::Problems& problems) {
+  const io::TomlNode* const table = keys.table("colours");
+  if (table == nullptr) return std::nullopt;
+  const std::vector<std::string> no_languages;
+  io::KeyReader inner(*table, "the colours", no_languages, problems);
+  TableColours colours;
+  colours.table_bgr = read_colour(inner, "table_rgb");
+  colours.triangle_bgr = read_colour(inner, "triangle_rgb");
+  inner.finish();
+  if (ColourClasses classes; problems.none() && !classes.adapt(colours.table_bgr.data(), colours.triangle_bgr.data()))
+    problems.add(table->place, "the colours: the table must be red, the triangles blue.");
+  return colours;
+}
+
 std::string exact_number(double number) {
   std::string text;
   io::append_number(text, number);
   return text;
+}
+
+std::string rgb_list(const std::array<double, 3>& bgr) {
+  return fmt::format("[{}, {}, {}]", exact_number(bgr[2]), exact_number(bgr[1]), exact_number(bgr[0]));
 }
 
 }  // namespace
@@ -79,11 +104,12 @@ base::Result<TableView> read_table_view(const std::filesystem::path& path) {
   const double table_height = keys.number("table_height_mm", 1.0, 1.0, 100'000.0);
   const double thickness = keys.number("thickness_mm", 0.0, 0.0, 100.0);
   const Lens lens = read_lens(keys, problems);
+  const std::optional<TableColours> colours = read_colours(keys, problems);
   const std::array<double, 9> numbers = read_homography(*tree, problems);
   for (const io::TomlMember& member : tree->members)
     if (member.key != "pixels_from_mm" && member.key != "lens" && member.key != "frame_width" &&
         member.key != "frame_height" && member.key != "table_width_mm" && member.key != "table_height_mm" &&
-        member.key != "thickness_mm")
+        member.key != "thickness_mm" && member.key != "colours")
       problems.add(member.place, fmt::format("the view: there is no key '{}'.", member.key));
   if (!problems.none()) return base::fail(problems.text(path.string()));
   base::Matrix3 pixels_from_mm;
@@ -92,6 +118,7 @@ base::Result<TableView> read_table_view(const std::filesystem::path& path) {
   auto view = TableView::seen_by(lens, pixels_from_mm, width, height, table_width, table_height);
   if (!view) return base::fail(fmt::format("{}: {}", path.string(), view.error().message));
   view->set_thickness(thickness);
+  view->set_colours(colours);
   return view;
 }
 
@@ -121,6 +148,9 @@ base::Result<void> write_table_view(const TableView& view, const std::filesystem
                                        {"k3", lens.k3}})
       text += fmt::format("{} = {}\n", name, exact_number(number));
   }
+  if (const auto& colours = view.colours())
+    text += fmt::format("\n[colours]\ntable_rgb = {}\ntriangle_rgb = {}\n", rgb_list(colours->table_bgr),
+                        rgb_list(colours->triangle_bgr));
   auto file = io::NewFile::create(path);
   if (!file) return tl::unexpected(file.error());
   file->write(text);

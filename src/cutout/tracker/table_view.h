@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <optional>
 
 #include "base/result.h"
 #include "base/vector.h"
@@ -11,6 +12,13 @@ namespace icome::cutout {
 struct Lens {
   double fx = 0, fy = 0, cx = 0, cy = 0;  ///< pixels
   double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
+};
+
+/// Colours of a table and of its triangles as a camera shows them: blue, green, red, 0 to 255.
+struct TableColours {
+  std::array<double, 3> table_bgr{}, triangle_bgr{};
+
+  bool operator==(const TableColours&) const = default;
 };
 
 /// The camera's view of the table: between pixels of a frame and millimetres on the plane in which the upper
@@ -34,6 +42,9 @@ class TableView {
   /// so is the place of the camera, and with it how much of a triangle's walls is seen.
   void set_thickness(double millimetres);
   double thickness() const { return thickness_; }
+  /// The colours that were measured; none: those of usual red and blue card.
+  void set_colours(const std::optional<TableColours>& colours) { colours_ = colours; }
+  const std::optional<TableColours>& colours() const { return colours_; }
   /// Way from a point of an upper face's outline to where the foot of the wall below it is seen, both in the
   /// plane of the upper faces (mm): towards the place below the camera. The outline of blue is that of the
   /// face, moved out by this where it points outwards. Zero without a thickness or a lens.
@@ -71,6 +82,7 @@ class TableView {
   int frame_width_ = 0, frame_height_ = 0;
   double table_width_ = 0, table_height_ = 0;
   double thickness_ = 0;
+  std::optional<TableColours> colours_;
   base::Vector2 below_camera_ = base::Vector2::Zero();
   double camera_height_ = 0;
   double wall_share_ = 0;  // of the way to below the camera that a wall's foot is moved by

@@ -154,5 +154,28 @@ TEST(ProjectEdit, IsHeardByASinkThatMayRefuseIt) {
   EXPECT_EQ(history.value(), harbour());
 }
 
+TEST(ProjectEdit, AllThatIsDoneTogetherIsOneStep) {
+  base::EditHistory<Project, ProjectEdit> history(harbour());
+  EXPECT_TRUE(history.perform({SmoothHands{true}}));
+  const Project before = history.value();
+  history.as_one_step([&] {
+    EXPECT_TRUE(history.perform({ChangeStage{{100, 50}}}));
+    EXPECT_FALSE(history.perform({TakeCell{CellId{99}}}));
+    EXPECT_TRUE(history.perform({ChangeStage{{300, 200}}}));
+    EXPECT_TRUE(history.perform({SmoothHands{false}}));
+  });
+  history.as_one_step([] {});
+  const Project after = history.value();
+  EXPECT_EQ(after.stage.width, 300);
+  EXPECT_TRUE(history.undo());
+  EXPECT_EQ(history.value(), before);
+  EXPECT_TRUE(history.redo());
+  EXPECT_EQ(history.value(), after);
+  EXPECT_TRUE(history.undo());
+  EXPECT_TRUE(history.undo());
+  EXPECT_EQ(history.value(), harbour());
+  EXPECT_FALSE(history.can_undo());
+}
+
 }  // namespace
 }  // namespace icome::animation

@@ -57,14 +57,18 @@ class PoseTracker : public Tracker {
         claims_(rectifier_.view().frame_width(), rectifier_.view().frame_height()),
         tracks_(shapes_.size()),
         lost_(shapes_.size()),
-        follows_(tracks) {}
+        follows_(tracks) {
+    if (const auto& shown = rectifier_.view().colours())
+      shown_colours_.adapt(shown->table_bgr.data(), shown->triangle_bgr.data());
+    colours_ = shown_colours_;
+  }
 
   base::Result<std::vector<Sighting>> see(const FrameView& frame, double time) override;
   void forget() override {
     std::fill(tracks_.begin(), tracks_.end(), TriangleTrack{});
     std::fill(lost_.begin(), lost_.end(), LastSeen{});
     last_time_.reset();
-    colours_ = ColourClasses();
+    colours_ = shown_colours_;
     fit_.set_spread(0.0);
     colour_looks_ = 0;
     colours_seen_ = -1e9;
@@ -84,7 +88,8 @@ class PoseTracker : public Tracker {
   std::vector<Neighbour> neighbours_of(std::size_t triangle) const;
 
   Rectifier rectifier_;
-  ColourClasses colours_;
+  ColourClasses shown_colours_;  // of the view, from which it begins
+  ColourClasses colours_;        // of the light of now
   std::vector<TriangleShape> shapes_;
   PoseSearch search_;
   OutlineFit fit_;

@@ -79,6 +79,8 @@ class CutoutDocument {
   bool perform(const interaction::Value& command);
   /// Applies an edit as one step to undo; an empty one is none. Refusals are told; false: it was refused.
   bool perform(const animation::ProjectEdit& edit);
+  /// All that `work` performs is one step to undo.
+  void as_one_step(const std::function<void()>& work) { runner_->as_one_step(work); }
   bool can_undo() const { return runner_->can_undo(); }
   bool can_redo() const { return runner_->can_redo(); }
   void undo();

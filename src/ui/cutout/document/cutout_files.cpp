@@ -150,8 +150,11 @@ void CutoutFiles::add_cells(const std::vector<std::filesystem::path>& files, boo
   if (one_cell) {
     if (!names.empty()) document_.perform(cutout_command("add-cell", {{"pictures", command_texts(names)}}));
   } else {
-    for (const std::string& name : names)
-      if (!document_.perform(cutout_command("add-cell", {{"pictures", command_texts({name})}}))) return;
+    document_.as_one_step([&] {
+      // The rest is not tried after one that cannot be read, which is told.
+      for (const std::string& name : names)
+        if (!document_.perform(cutout_command("add-cell", {{"pictures", command_texts({name})}}))) return;
+    });
   }
   const auto& layers = document_.project().layers;
   // The last one is about to be moved.
