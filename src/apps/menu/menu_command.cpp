@@ -28,8 +28,8 @@ using interaction::LaidWidget;
 using interaction::Widget;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kLongestTrace = 1'000'000'000;  // bytes
-constexpr double kTickSeconds = 0.001;  // the longest between two ticks while trying
+constexpr std::uint64_t kLongestHeadMotion = 1'000'000'000;  // bytes
+constexpr double kTickSeconds = 0.001;                       // the longest between two ticks while trying
 
 constexpr const char* kMenuNotes =
     "Examples:\n"
@@ -233,7 +233,7 @@ base::Result<Prepared> prepare(const MenuOptions& options) {
 }
 
 base::Result<std::string> answer_of_looking(ElementUse& use, const MenuOptions& options) {
-  const auto text = io::read_bytes(*options.path, kLongestTrace);
+  const auto text = io::read_bytes(*options.path, kLongestHeadMotion);
   if (!text) return tl::unexpected(text.error());
   const auto motion = devices::read_head_trace(*text, options.path->string());
   if (!motion) return tl::unexpected(motion.error());

@@ -117,7 +117,8 @@ void draw_key(Canvas& canvas, double y) {
 
 charts::Image draw_menus(const MenuBenchResult& result) {
   Canvas canvas(kMenusWidth, kMenusHeight, 1.0);
-  canvas.text({kMenusMargin, 60.0}, "Choosing from menus that are felt, simulated", {31.0, charts::kInk, true});
+  canvas.text({kMenusMargin, 60.0}, "Choosing from menus that are felt, simulated",
+              {31.0, charts::kInk, true});
   canvas.text({kMenusMargin, 94.0},
               fmt::format("{} simulated people \u00d7 {} choices in each condition \u00b7 seed {}",
                           result.settings.users, result.settings.trials, result.settings.seed),

@@ -15,15 +15,10 @@ using study::MenuFeel;
 using MenusJson = nlohmann::ordered_json;
 
 MenusJson row_json(const MenuConditionResult& it) {
-  return {{"menu", kind_word(it.condition)},
-          {"items", it.condition.items},
-          {"choose", choose_word(it.condition)},
-          {"feel", feel_word(it.condition)},
-          {"time_s", it.time.mean},
-          {"time_sd_s", it.time.deviation},
-          {"error_rate", it.error_rate},
-          {"movements", it.movements},
-          {"way_m", it.way}};
+  return {
+      {"menu", kind_word(it.condition)}, {"items", it.condition.items}, {"choose", choose_word(it.condition)},
+      {"feel", feel_word(it.condition)}, {"time_s", it.time.mean},      {"time_sd_s", it.time.deviation},
+      {"error_rate", it.error_rate},     {"movements", it.movements},   {"way_m", it.way}};
 }
 
 }  // namespace
@@ -59,11 +54,11 @@ std::string menus_json(const MenuBenchResult& result) {
 }
 
 std::string menus_text(const MenuBenchResult& result) {
-  std::string text =
-      fmt::format("{} simulated people, {} choices each in {} conditions, seed {}.\n\n", result.settings.users,
-                  result.settings.trials, result.conditions.size(), result.settings.seed);
-  text += fmt::format("  {:<8}{:>5}  {:<7}{:<8}{:>8}{:>7}{:>9}{:>11}{:>9}\n", "menu", "items", "choose", "feel",
-                      "time, s", "sd", "errors", "movements", "way, mm");
+  std::string text = fmt::format("{} simulated people, {} choices each in {} conditions, seed {}.\n\n",
+                                 result.settings.users, result.settings.trials, result.conditions.size(),
+                                 result.settings.seed);
+  text += fmt::format("  {:<8}{:>5}  {:<7}{:<8}{:>8}{:>7}{:>9}{:>11}{:>9}\n", "menu", "items", "choose",
+                      "feel", "time, s", "sd", "errors", "movements", "way, mm");
   for (const MenuConditionResult& it : result.conditions)
     text += fmt::format("  {:<8}{:>5}  {:<7}{:<8}{:>8.2f}{:>7.2f}{:>8.1f}%{:>11.2f}{:>9.0f}\n",
                         kind_word(it.condition), it.condition.items, choose_word(it.condition),

@@ -14,7 +14,8 @@ std::string menus_json(const study::MenuBenchResult& result);
 /// A table for a person, and its meaning.
 std::string menus_text(const study::MenuBenchResult& result);
 
-/// A page of 1600 x 1000 pixels: times above errors, a column for each kind of menu, over the number of items.
+/// A page of 1600 x 1000 pixels: times above errors, a column for each kind of menu, over the number of
+/// items.
 charts::Image draw_menus(const study::MenuBenchResult& result);
 
 /// "list", "pie", "daisy"; "none", "well", "recess"; "click" or "push".

@@ -79,8 +79,8 @@ int run_techniques(const TechniquesOptions& options) {
     if (!created) return end_without_result(created.error(), status);
     out.emplace(std::move(*created));
   }
-  const auto answer = options.menus ? answer_on_menus(options, out, status)
-                                    : answer_on_techniques(options, out, status);
+  const auto answer =
+      options.menus ? answer_on_menus(options, out, status) : answer_on_techniques(options, out, status);
   if (!answer) return end_without_result(answer.error(), status);
   status.clear();
   return print_answer(*answer);

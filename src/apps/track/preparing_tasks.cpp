@@ -139,8 +139,9 @@ int run_track_colours(const TrackOptions& options) {
                        {"triangle_rgb", rgb(colours.triangle_bgr)}};
     return print_answer(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   }
-  return print_answer(fmt::format("{}: the table is {}, the triangle {}, by {} frames\n", options.view.string(),
-                                  rgb_of(colours.table_bgr), rgb_of(colours.triangle_bgr), measured->size()));
+  return print_answer(fmt::format("{}: the table is {}, the triangle {}, by {} frames\n",
+                                  options.view.string(), rgb_of(colours.table_bgr),
+                                  rgb_of(colours.triangle_bgr), measured->size()));
 }
 
 int run_track_calibrate(const TrackOptions& options) {

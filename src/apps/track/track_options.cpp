@@ -17,7 +17,8 @@ constexpr const char* kTrackNotes =
     "  icome track shot.jpg --known mine.toml --picture found.png\n"
     "  icome track 'frames/*.png' --known mine.toml --table 600x400 --json\n"
     "  icome track camera --known mine.toml --view view.toml --learn --id boat\n"
-    "  icome track camera --view view.toml --colours      the table with one triangle on it, and nothing else\n"
+    "  icome track camera --view view.toml --colours      the table with one triangle on it, and nothing "
+    "else\n"
     "  icome track --synth made --frames 100 --triangles 12 --hands --occlude 0.5\n"
     "  icome track made --known made/known.toml --view made/view.toml --truth made/truth.json\n"
     "\n"
@@ -124,7 +125,8 @@ void add_preparing(CLI::App& track, TrackOptions& options, Preparing& preparing)
       ->check(number_range(0.0, 50.0));
   track.add_flag("--colours", preparing.colours,
                  "Measure the colours of the table and of the one triangle on it, and keep them in --view");
-  track.add_flag("--learn", preparing.learn, "Measure the one triangle on the table and add it to --known as --id");
+  track.add_flag("--learn", preparing.learn,
+                 "Measure the one triangle on the table and add it to --known as --id");
   track.add_option("--id", options.id, "With --learn: its name")->type_name("NAME");
   track.add_option("--cell", options.cell, "With --learn: the animation's cell that it moves")
       ->type_name("NAME");

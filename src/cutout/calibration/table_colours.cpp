@@ -12,21 +12,23 @@
 namespace icome::cutout {
 namespace {
 
-constexpr int kBins = 16;                    // of each channel
-constexpr double kBluer = 24.0;              // of blue minus red, by which triangles differ from the table
+constexpr int kBins = 16;                      // of each channel
+constexpr double kBluer = 24.0;                // of blue minus red, by which triangles differ from the table
 constexpr double kLeastTriangleShare = 0.001;  // of the table, that a triangle covers
-constexpr double kNearColour = 28.0;         // of any channel, from the middle of the commonest bin
+constexpr double kBorder = 0.03;               // of the table's sides
+constexpr double kNearColour = 28.0;           // of any channel, from the middle of the commonest bin
 
 using Bgr = std::array<double, 3>;
 
-/// Calls `take` with the three bytes of each pixel of the table.
+/// Calls `take` with the three bytes of each pixel of the table, but for its border, where colours mix.
 void each_on_table(const FrameView& frame, const TableView& view,
                    const std::function<void(const std::uint8_t*)>& take) {
   constexpr int kStep = 2;  // pixels
   for (int y = 0; y < frame.height; y += kStep)
     for (int x = 0; x < frame.width; x += kStep) {
       const base::Vector2 mm = view.to_table(base::Vector2(x, y));
-      if (mm.x() >= 0 && mm.y() >= 0 && mm.x() <= view.table_width() && mm.y() <= view.table_height())
+      const double x_share = mm.x() / view.table_width(), y_share = mm.y() / view.table_height();
+      if (std::min(x_share, y_share) >= kBorder && std::max(x_share, y_share) <= 1.0 - kBorder)
         take(frame.row(y) + 3 * std::ptrdiff_t(x));
     }
 }
@@ -44,7 +46,8 @@ CommonColour commonest(const FrameView& frame, const TableView& view,
   CommonColour common;
   each_on_table(frame, view, [&](const std::uint8_t* bgr) {
     ++common.all;
-    if (counts(bgr)) ++bins[std::size_t(bgr[0] / kBins * kBins * kBins + bgr[1] / kBins * kBins + bgr[2] / kBins)];
+    if (counts(bgr))
+      ++bins[std::size_t(bgr[0] / kBins * kBins * kBins + bgr[1] / kBins * kBins + bgr[2] / kBins)];
   });
   const auto fullest = std::size_t(std::ranges::max_element(bins) - bins.begin());
   const double half = 0.5 * kBins;
@@ -80,10 +83,11 @@ base::Result<TableColours> measure_colours(const FrameView& frame, const TableVi
                                   rgb_text(table.mean)));
   ColourClasses classes;
   if (!classes.adapt(table.mean.data(), triangle.mean.data()))
-    return base::fail(fmt::format(
-        "a table of {} and a triangle of {} cannot be told apart from hands and shadows: the table must be red, "
-        "the triangle blue",
-        rgb_text(table.mean), rgb_text(triangle.mean)));
+    return base::fail(
+        fmt::format("a table of {} and a triangle of {} cannot be told apart from hands and shadows: the "
+                    "table must be red, "
+                    "the triangle blue",
+                    rgb_text(table.mean), rgb_text(triangle.mean)));
   return TableColours{table.mean, triangle.mean};
 }
 

@@ -72,7 +72,8 @@ std::optional<TableColours> read_colours(io::KeyReader& keys, io::Problems& prob
   colours.table_bgr = read_colour(inner, "table_rgb");
   colours.triangle_bgr = read_colour(inner, "triangle_rgb");
   inner.finish();
-  if (ColourClasses classes; problems.none() && !classes.adapt(colours.table_bgr.data(), colours.triangle_bgr.data()))
+  if (ColourClasses classes;
+      problems.none() && !classes.adapt(colours.table_bgr.data(), colours.triangle_bgr.data()))
     problems.add(table->place, "the colours: the table must be red, the triangles blue.");
   return colours;
 }

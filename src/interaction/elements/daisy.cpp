@@ -31,7 +31,8 @@ bool overlap(const Vector2& size, const Vector2& offset, double roll) {
   const Vector2 reach = 0.5 * size + 0.5 * Vector2(std::abs(c) * size.x() + std::abs(s) * size.y(),
                                                    std::abs(s) * size.x() + std::abs(c) * size.y());
   const Vector2 rolled(c * offset.x() + s * offset.y(), -s * offset.x() + c * offset.y());
-  return (offset.cwiseAbs().array() < reach.array()).all() && (rolled.cwiseAbs().array() < reach.array()).all();
+  return (offset.cwiseAbs().array() < reach.array()).all() &&
+         (rolled.cwiseAbs().array() < reach.array()).all();
 }
 
 /// Does one tile lie over another? Judged on the plane of each of the two.
@@ -110,7 +111,8 @@ DaisyLayout daisy_layout(std::size_t count, const Vector2& tile, double least_ra
   constexpr double kGrowth = 1.06;
   // The cap of the sphere that is used must at least be as large as all tiles; a single one wants a ball too.
   const double cap = 2.0 * std::numbers::pi * (1.0 - std::cos(kDaisyReach));
-  double radius = std::max({least_radius, 0.6 * tile.maxCoeff(), std::sqrt(double(count) * tile.prod() / cap)});
+  double radius =
+      std::max({least_radius, 0.6 * tile.maxCoeff(), std::sqrt(double(count) * tile.prod() / cap)});
   for (;; radius *= kGrowth) {
     std::vector<Vector2> places = places_on({radius, 0.0}, count, tile);
     if (places.size() == count) return {radius, std::move(places)};

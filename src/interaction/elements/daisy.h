@@ -10,8 +10,8 @@ using base::Vector2;
 
 /// The sphere of a daisy menu (JDCAD, thesis 2.2.3), on which items lie as tiles. It is turned by a hand that
 /// moves over the sheet on which the sphere is laid flat: a place of the sheet is as far from the front along
-/// the sphere, in the same direction, as it is from the sheet's middle (azimuthal equidistant projection). The
-/// tile at the place of the hand is turned to the front, and stands upright there.
+/// the sphere, in the same direction, as it is from the sheet's middle (azimuthal equidistant projection).
+/// The tile at the place of the hand is turned to the front, and stands upright there.
 struct DaisySphere {
   double radius = 0.0;  // m, > 0
   double cone = 0.0;    // rad, half the angle of the cone round the front in which a tile can be chosen

@@ -23,12 +23,9 @@ using io::Words;
 constexpr double kFarthestCentre = 1000.0;          // m
 constexpr std::uint64_t kLongestFile = 10'000'000;  // bytes
 
-const Words<ElementKind> kKinds = {{"menu", ElementKind::Menu},
-                                   {"toolbar", ElementKind::Toolbar},
-                                   {"dialog", ElementKind::Dialog},
-                                   {"ring", ElementKind::Ring},
-                                   {"pie", ElementKind::Pie},
-                                   {"daisy", ElementKind::Daisy}};
+const Words<ElementKind> kKinds = {{"menu", ElementKind::Menu},     {"toolbar", ElementKind::Toolbar},
+                                   {"dialog", ElementKind::Dialog}, {"ring", ElementKind::Ring},
+                                   {"pie", ElementKind::Pie},       {"daisy", ElementKind::Daisy}};
 const Words<WidgetKind> kWidgetKinds = {{"item", WidgetKind::Item},   {"check", WidgetKind::Check},
                                         {"radio", WidgetKind::Radio}, {"slider", WidgetKind::Slider},
                                         {"label", WidgetKind::Label}, {"separator", WidgetKind::Separator}};

@@ -47,8 +47,8 @@ struct LaidSheet {
   Vector2 centre = Vector2::Zero();
   Vector2 half = Vector2::Zero();
   std::string title = {};
-  double title_height = 0.0;             // m, of its row along the upper edge; 0: none
-  Vector2 title_half = Vector2::Zero();  // where it stands in the middle: half its width and height
+  double title_height = 0.0;               // m, of its row along the upper edge; 0: none
+  Vector2 title_half = Vector2::Zero();    // where it stands in the middle: half its width and height
   std::optional<DaisySphere> sphere = {};  // that is laid flat on it; of the element's own only
 };
 

@@ -41,8 +41,8 @@ class ElementUse {
   /// Takes the pointer; called at any rate, also once a tick. Gives what it chose, which is told once: a push
   /// counts again only when the hand has come back nearly to the plane (hysteresis).
   std::optional<Choice> point(const ElementPointer& pointer);
-  /// Takes the way that the eye looks, in the frame of the element's place, and whether the button is down: the
-  /// look-at menu of CHIMP (thesis 2.3.1). What is looked at lights up, and is chosen when the button is
+  /// Takes the way that the eye looks, in the frame of the element's place, and whether the button is down:
+  /// the look-at menu of CHIMP (thesis 2.3.1). What is looked at lights up, and is chosen when the button is
   /// released, also if it was down at the first call already.
   std::optional<Choice> look(const Ray& gaze, bool button, double time);
   /// Lets time pass without a pointer. An element that somebody attends to, such as with keys, fades in.
@@ -60,7 +60,8 @@ class ElementUse {
   const std::vector<const Widget*>& open() const { return open_; }
   /// The widget that the pointer or a key has lit up; null: none.
   const Widget* lit() const { return lit_; }
-  /// The place of the element's own sheet that is in front, of a daisy: the pointer's, or that of a key's light.
+  /// The place of the element's own sheet that is in front, of a daisy: the pointer's, or that of a key's
+  /// light.
   const Vector2& front() const { return front_; }
   /// Is the pointer near an element that is open (thesis 5.7.2)?
   bool is_near() const { return near_; }

@@ -49,6 +49,7 @@ PartPlace place_of(const ElementUse& use, const ElementPart& part) {
   return place;
 }
 
+/// What is turned away is fainter.
 Panel panel_at(const ElementUse& use, const ElementPart& part, const PartPlace& place) {
   const ElementFrame& frame = use.frame();
   const Vector3 middle = place.pose.translation();
@@ -58,7 +59,7 @@ Panel panel_at(const ElementUse& use, const ElementPart& part, const PartPlace& 
   const Vector3 right = middle + place.half.x() * place.pose.linear().col(0);
   const Vector3 top = middle + place.half.y() * place.pose.linear().col(1);
   panel.lying = {Vector3(in_world(frame, right) - *panel.at), Vector3(in_world(frame, top) - *panel.at)};
-  panel.alpha = use.opacity();
+  panel.alpha = use.opacity() * std::clamp(0.6 + 0.8 * place.pose.linear()(2, 2), 0.2, 1.0);
   return panel;
 }
 

@@ -15,7 +15,8 @@ struct ElementPart {
 };
 
 /// Draws all parts of an element as they are now.
-std::vector<ElementPart> draw_parts(const interaction::ElementUse& use, ElementTheme theme, double resolution);
+std::vector<ElementPart> draw_parts(const interaction::ElementUse& use, ElementTheme theme,
+                                    double resolution);
 
 /// Puts the parts where they lie in the scene, with the element's opacity, those behind others first.
 std::vector<render::SceneOverlay::Panel> placed_parts(const interaction::ElementUse& use,

@@ -28,7 +28,7 @@ using interaction::WidgetKind;
 constexpr double kMillimetres = 1000.0;  // a page unit is a millimetre
 constexpr double kCapital = 0.729;       // height of a capital letter of DejaVu Sans, of its size
 constexpr double kMostPixels = 4096.0;
-constexpr double kTitleRoom = 2.4;       // heights of a capital letter, above and below the ball of a daisy
+constexpr double kTitleRoom = 2.4;  // heights of a capital letter, above and below the ball of a daisy
 
 struct Colours {
   Colour paper, ink, quiet, line, lit, on_lit, title, on_title;
@@ -80,13 +80,12 @@ class SheetPainter {
     paint_widget(laid);
   }
 
-  /// The ball behind the tiles of a daisy, with the title above it and the mouth of its cone in front.
+  /// The ball behind the tiles of a daisy, with the title above it.
   void paint_ball(const interaction::DaisySphere& sphere) {
     const Vector2 middle = page(Vector2::Zero());
     const double radius = sphere.radius * kMillimetres;
     canvas_.fill_disc(middle, radius, colours_.title);
     canvas_.circle(middle, radius - 0.05 * unit_, {colours_.line, 0.1 * unit_, {}});
-    canvas_.circle(middle, radius * std::sin(sphere.cone), {colours_.line, 0.1 * unit_, {}});
     if (sheet_.title.empty()) return;
     auto look = style(colours_.ink, true);
     look.align = 0.5;
@@ -355,7 +354,8 @@ charts::Image draw_look_mark(ElementTheme theme) {
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x) {
       const double away = (Vector2(x + 0.5, y + 0.5) - middle).norm();
-      const double seen = std::max(std::clamp(3.5 - std::abs(away - 11.0), 0.0, 1.0), std::clamp(3.0 - away, 0.0, 1.0));
+      const double seen =
+          std::max(std::clamp(3.5 - std::abs(away - 11.0), 0.0, 1.0), std::clamp(3.0 - away, 0.0, 1.0));
       std::uint8_t* const bytes = image.rgba.data() + 4 * std::ptrdiff_t(y * kSide + x);
       for (int i = 0; i < 3; ++i) bytes[i] = std::uint8_t(std::lround(seen * bytes[i]));
       bytes[3] = std::uint8_t(std::lround(255.0 * seen));

@@ -127,8 +127,7 @@ std::optional<MenuChoice> SceneMenu::point_by_mouse(const interaction::Ray& way,
 
 std::vector<MenuChoice> SceneMenu::look(const interaction::Ray& gaze, std::span<const MenuTick> ticks,
                                         double now) {
-  const bool looks_elsewhere =
-      gaze.origin != gaze_.origin || gaze.direction != gaze_.direction;
+  const bool looks_elsewhere = gaze.origin != gaze_.origin || gaze.direction != gaze_.direction;
   gaze_ = gaze;
   if (looks_elsewhere) attended_ = false;
   std::vector<MenuChoice> chosen;

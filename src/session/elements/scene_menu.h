@@ -53,9 +53,9 @@ class SceneMenu {
   std::optional<MenuChoice> point_by_mouse(const interaction::Ray& way, bool button, double now);
   /// The place where a way meets a sheet, stage frame; nothing: it meets none.
   std::optional<base::Vector3> met_by(const interaction::Ray& way) const;
-  /// As take(), for an element that is chosen from by looking: the eye looks along that way, and the first hand
-  /// that presses its button holds it. A mouse that has pointed at the element stands for the eye until the eye
-  /// looks elsewhere.
+  /// As take(), for an element that is chosen from by looking: the eye looks along that way, and the first
+  /// hand that presses its button holds it. A mouse that has pointed at the element stands for the eye until
+  /// the eye looks elsewhere.
   std::vector<MenuChoice> look(const interaction::Ray& gaze, std::span<const MenuTick> ticks, double now);
   std::optional<MenuChoice> press(interaction::ElementKey key);
   std::optional<MenuChoice> choose(std::string_view name_or_text);
@@ -84,8 +84,8 @@ class SceneMenu {
   std::vector<render::SceneOverlay::Panel> panels_;
   std::uint64_t drawn_ = 0;  // looks() of the pictures
   std::optional<std::size_t> hand_ = {};
-  bool attended_ = false;      // by mouse or keys
-  bool presses_ = false;       // the button of the mouse, or of the hand that looks, is down
+  bool attended_ = false;       // by mouse or keys
+  bool presses_ = false;        // the button of the mouse, or of the hand that looks, is down
   interaction::Ray gaze_ = {};  // of the last look
 };
 

@@ -53,9 +53,9 @@ interaction::Element menu_of(const MenuCondition& condition);
 /// The simplifications of the simulation, in sentences: they are assumptions as well.
 std::vector<std::string> menu_simplifications();
 
-/// Lets simulated people choose from all of them, on all cores; the same settings give the same result, to the
-/// last bit. `tell` is told the share that is done, in [0, 1], now and then and from several threads; the work
-/// ends early, with an error, when it returns false. Fails for settings out of their ranges.
+/// Lets simulated people choose from all of them, on all cores; the same settings give the same result, to
+/// the last bit. `tell` is told the share that is done, in [0, 1], now and then and from several threads; the
+/// work ends early, with an error, when it returns false. Fails for settings out of their ranges.
 base::Result<MenuBenchResult> run_menu_bench(const MenuBenchSettings& settings,
                                              const std::function<bool(double)>& tell = nullptr);
 

@@ -17,12 +17,14 @@ using interaction::LaidWidget;
 using interaction::LimbModel;
 using interaction::PersonModel;
 
-constexpr double kMenuRate = 1000.0;     // Hz
-constexpr double kBefore = 0.03;         // m, from the tip to the element at the beginning
-constexpr double kClickDepth = 0.001;    // m, behind the plane: a hand that clicks rests on the ground
-constexpr double kHoverOfPush = 0.005;   // m, before the plane: a hand that will push keeps away from it
-constexpr double kPushesPast = 0.009;    // m, behind the depth of a push, which the ground holds back
-constexpr double kSharpest = 0.001;      // m, tolerance that nobody goes below
+constexpr double kMenuRate = 1000.0;    // Hz
+constexpr double kBefore = 0.03;        // m, from the tip to the element at the beginning
+constexpr double kClickDepth = 0.001;   // m, behind the plane: a hand that clicks rests on the ground
+constexpr double kHoverOfPush = 0.005;  // m, before the plane: a hand that will push keeps away from it
+constexpr double kSpreadsAway = 2.0;    // deviations of the movement in depth, that it keeps away besides
+constexpr double kFarthestHover = 0.7;  // of the distance in which items light up
+constexpr double kPushesPast = 0.009;   // m, behind the depth of a push, which the ground holds back
+constexpr double kSharpest = 0.001;     // m, tolerance that nobody goes below
 constexpr int kMostMenuMovements = 200;
 
 /// How far from its middle a widget may still be hit, m.
@@ -120,10 +122,18 @@ class MenuRunning {
   }
   void rest(double seconds) { pass(seconds, aim_); }
 
+  /// Who will push keeps so far away that the error of the movement seldom makes a push of it.
+  double height_of_goal(const LaidWidget& target, double amplitude) const {
+    if (!element_.choosing.by_push) return -kClickDepth;
+    const double seconds = interaction::planned_duration(limb_, person_, amplitude, tolerance_of(target));
+    const double spread = person_.aside * limb_.noise * amplitude / seconds;
+    return std::min(kHoverOfPush + kSpreadsAway * spread, kFarthestHover * element_.choosing.near);
+  }
+
   /// A movement to the widget from where the tip is seen, with the error that its speed brings.
   void move_to(const LaidWidget& target) {
-    const double height = element_.choosing.by_push ? kHoverOfPush : -kClickDepth;
-    Vector3 way(target.centre.x() - tip_.x(), target.centre.y() - tip_.y(), height - aim_.z());
+    const base::Vector2 aside = target.centre - tip_.head<2>();
+    Vector3 way(aside.x(), aside.y(), height_of_goal(target, aside.norm()) - aim_.z());
     const double amplitude = way.norm();
     const double seconds = interaction::planned_duration(limb_, person_, amplitude, tolerance_of(target));
     if (amplitude > 0.0) {
@@ -138,9 +148,11 @@ class MenuRunning {
     pass(seconds, aim_ + way);
   }
 
+  /// The finger moves the hand while it goes down, more quickly than a person could correct that.
   void press() {
-    rest(person_.press);
-    for (int axis = 0; axis < 3; ++axis) aim_[axis] += limb_.press_jolt * interaction::normal_number(random_);
+    Vector3 jolt;
+    for (int axis = 0; axis < 3; ++axis) jolt[axis] = limb_.press_jolt * interaction::normal_number(random_);
+    pass(person_.press, aim_ + jolt);
     button_ = true;
     tick();
     button_ = false;
@@ -166,8 +178,8 @@ class MenuRunning {
   ElementUse use_;
   devices::SimulatedDevice hand_;
   haptics::Servo servo_;
-  Vector3 phase_, hertz_;                       // rad, Hz: of the tremor, by axis
-  Vector3 aim_ = Vector3(0.0, 0.0, kBefore);    // of the hand, without its tremor
+  Vector3 phase_, hertz_;                     // rad, Hz: of the tremor, by axis
+  Vector3 aim_ = Vector3(0.0, 0.0, kBefore);  // of the hand, without its tremor
   Vector3 tip_ = aim_;
   bool button_ = false;
   double time_ = 0.0;  // s

@@ -17,9 +17,9 @@ struct MenuRun {
 /// A simulated person chooses a widget of an open element: reacts, moves by minimum jerk to where signal-
 /// dependent noise lets the movement end, sees what is lit, and corrects until it is the widget; then presses
 /// the button, which jolts, or pushes. All the while the hand trembles. The element is felt through the servo
-/// by a simulated hand, which its forces move, and it is the element's own point() that chooses. The tip begins
-/// 3 cm before the middle of the element, which lies at the origin. The same random numbers give the same run.
-/// Precondition: the widget is on the element's own sheet, and is chosen by either click or push.
+/// by a simulated hand, which its forces move, and it is the element's own point() that chooses. The tip
+/// begins 3 cm before the middle of the element, which lies at the origin. The same random numbers give the
+/// same run. Precondition: the widget is on the element's own sheet, and is chosen by either click or push.
 MenuRun choose_from_menu(const interaction::PersonModel& person, const interaction::Element& element,
                          const interaction::TextMeasure& measure, const interaction::Widget& widget,
                          base::Random& random);

@@ -24,9 +24,10 @@ Frame shown_frame(const DrawnColour& table, const DrawnColour& paper, std::uint6
 }
 
 void expect_colour(const std::array<double, 3>& bgr, const DrawnColour& colour) {
-  EXPECT_NEAR(bgr[0], colour.blue, 2.0);
-  EXPECT_NEAR(bgr[1], colour.green, 2.0);
-  EXPECT_NEAR(bgr[2], colour.red, 2.0);
+  // Noise and the mixed edge brighten dark channels a little.
+  EXPECT_NEAR(bgr[0], colour.blue, 3.0);
+  EXPECT_NEAR(bgr[1], colour.green, 3.0);
+  EXPECT_NEAR(bgr[2], colour.red, 3.0);
 }
 
 TEST(TableColours, AreMeasuredWhereTheyAreShown) {
@@ -98,7 +99,8 @@ TEST(TableColours, AreKeptWithTheView) {
     const auto bad = read_table_view(file);
     return bad ? "" : bad.error().message;
   };
-  EXPECT_NE(fault("table_rgb = [1, 2]\ntriangle_rgb = [40, 80, 180]\n").find("view.toml:7"), std::string::npos);
+  EXPECT_NE(fault("table_rgb = [1, 2]\ntriangle_rgb = [40, 80, 180]\n").find("view.toml:7"),
+            std::string::npos);
   EXPECT_NE(fault("table_rgb = [190, 35, 40]\n").find("triangle_rgb"), std::string::npos);
   EXPECT_NE(fault("table_rgb = [90, 85, 80]\ntriangle_rgb = [40, 80, 180]\n").find("must be red"),
             std::string::npos);

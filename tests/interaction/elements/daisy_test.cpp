@@ -99,7 +99,9 @@ TEST(DaisyLayout, TheSphereGrowsWithItsItemsAndNoFurther) {
     last = layout.radius;
     // Tiles cover a good part of what they may.
     const double cap = 2.0 * std::numbers::pi * (1.0 - std::cos(kDaisyReach)) * layout.radius * layout.radius;
-    if (count >= 12) EXPECT_GT(double(count) * 0.03 * 0.01 / cap, 0.4) << count;
+    if (count >= 12) {
+      EXPECT_GT(double(count) * 0.03 * 0.01 / cap, 0.4) << count;
+    }
   }
   EXPECT_EQ(daisy_layout(5, {0.03, 0.01}, 0.5).radius, 0.5);
   EXPECT_EQ(daisy_layout(5, {0.03, 0.01}, 0.5).places.front(), Vector2::Zero());
@@ -156,7 +158,8 @@ TEST(DaisyUse, TheHandTurnsItAndClicks) {
 
 TEST(DaisyFile, TellsWhatDoesNotFitOnIt) {
   const auto slider = read_element(
-      "kind = \"daisy\"\n[[item]]\nname = \"Size\"\nkind = \"slider\"\n[[item]]\nkind = \"separator\"\n", "d.toml");
+      "kind = \"daisy\"\n[[item]]\nname = \"Size\"\nkind = \"slider\"\n[[item]]\nkind = \"separator\"\n",
+      "d.toml");
   ASSERT_FALSE(slider);
   EXPECT_NE(slider.error().message.find("not 'Size'"), std::string::npos) << slider.error().message;
   std::string many = "kind = \"daisy\"\n";
@@ -165,7 +168,8 @@ TEST(DaisyFile, TellsWhatDoesNotFitOnIt) {
   ASSERT_FALSE(crowd);
   EXPECT_NE(crowd.error().message.find("200 items at most, not 201"), std::string::npos);
   EXPECT_FALSE(read_element("kind = \"daisy\"\ncone_deg = 0\n[[item]]\nname = \"a\"\n", "d.toml"));
-  const Element wide = element_of("kind = \"daisy\"\ncone_deg = 90\nradius_m = 0.3\n[[item]]\nname = \"a\"\n");
+  const Element wide =
+      element_of("kind = \"daisy\"\ncone_deg = 90\nradius_m = 0.3\n[[item]]\nname = \"a\"\n");
   EXPECT_NEAR(wide.cone, 0.5 * std::numbers::pi, 1e-12);
   EXPECT_EQ(lay_out(wide, 0, even_letters()).sheets.front().sphere->radius, 0.3);
 }

@@ -72,12 +72,14 @@ TEST(SceneMenu, ADaisyIsMovedWithoutDrawingItAnew) {
 
 TEST(SceneMenu, TheEyeChoosesWhenTheHandsButtonIsReleased) {
   SceneMenu menu;
-  menu.open(interaction::element_of("[choosing]\nby = \"look\"\n[[item]]\nname = \"One\"\n[[item]]\nname = \"Two\"\n"),
+  menu.open(interaction::element_of(
+                "[choosing]\nby = \"look\"\n[[item]]\nname = \"One\"\n[[item]]\nname = \"Two\"\n"),
             0, interaction::even_letters(), kTurned);
   ASSERT_TRUE(menu.is_looked_at());
   const Vector3 eye = kTurned.centre + 1.3 * kTurned.normal();
   const auto way = [&](std::size_t item) {
-    return interaction::Ray{eye, (kTurned.in_world(menu.use()->layout().widgets[item].centre) - eye).normalized()};
+    return interaction::Ray{eye,
+                            (kTurned.in_world(menu.use()->layout().widgets[item].centre) - eye).normalized()};
   };
   double time = 0.0;
   // The hand itself is far away.
