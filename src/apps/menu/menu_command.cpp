@@ -22,8 +22,8 @@ namespace {
 
 using interaction::Element;
 using interaction::ElementUse;
-using interaction::LaidWidget;
 using interaction::HandleKind;
+using interaction::LaidWidget;
 using interaction::Widget;
 using interaction::WidgetKind;
 using Json = nlohmann::ordered_json;
@@ -208,8 +208,7 @@ class OpenElement {
       item["less"] = handle(HandleKind::Less, &widget);
       item["more"] = handle(HandleKind::More, &widget);
     } else if (widget.kind == WidgetKind::Colour) {
-      const auto wheel =
-          interaction::wheel_of(*layout_.widget(widget), prepared_.element.text_height);
+      const auto wheel = interaction::wheel_of(*layout_.widget(widget), prepared_.element.text_height);
       item["wheel"] = {{"centre", place(wheel.centre)}, {"inner", wheel.inner}, {"outer", wheel.outer}};
       for (const base::Vector2& corner : wheel.corners()) item["wheel"]["corners"].push_back(place(corner));
     }
@@ -286,8 +285,7 @@ std::string trial_text(const MenuTrial& trial) {
       fmt::format("{:.4g} s, {:.4g} of them near the element, pushed in {} time{}\n", trial.seconds,
                   trial.near_seconds, trial.pushes, trial.pushes == 1 ? "" : "s");
   for (const MenuChoice& choice : trial.chosen) {
-    const std::string value =
-        choice.value.is_null() ? "" : ": " + interaction::json_from_value(choice.value);
+    const std::string value = choice.value.is_null() ? "" : ": " + interaction::json_from_value(choice.value);
     text += fmt::format("  {:.3f} s: {}{} (by {})\n", choice.time, choice.name, value, word_of(choice.by));
   }
   if (trial.chosen.empty()) text += "  nothing was chosen\n";
@@ -346,7 +344,8 @@ base::Result<std::string> answer_of(Prepared& prepared, const MenuOptions& optio
   prepared.element.choosing.by_push = !options.path || options.choose == "push";
   ElementUse use(prepared.element, prepared.language, prepared.measure);
   if (!options.show.empty() && !use.show(options.show))
-    return base::fail(fmt::format("{} has no item \"{}\" that can be shown.", options.file.string(), options.show));
+    return base::fail(
+        fmt::format("{} has no item \"{}\" that can be shown.", options.file.string(), options.show));
   if (options.picture)
     if (const auto written = write_picture(use, options, status); !written)
       return tl::unexpected(written.error());
@@ -379,8 +378,7 @@ void add_menu(CLI::App& app, MenuOptions& options) {
       ->check(CLI::IsMember({"light", "dark", "contrast"}))
       ->type_name("LOOK")
       ->needs(picture);
-  menu.add_option("--show", options.show,
-                  "Bring this item into sight first: its page, its menu, its row")
+  menu.add_option("--show", options.show, "Bring this item into sight first: its page, its menu, its row")
       ->type_name("NAME");
   menu.add_flag("--json", options.json, "Print the answer as JSON (fields below)");
 }

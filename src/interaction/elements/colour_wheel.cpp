@@ -69,7 +69,9 @@ Hsv hsv_of(const world::Colour& colour, const Hsv& otherwise) {
 }
 
 std::string colour_text(const world::Colour& colour) {
-  const auto byte = [&](std::size_t i) { return std::lround(255.0 * std::clamp(double(colour[i]), 0.0, 1.0)); };
+  const auto byte = [&](std::size_t i) {
+    return std::lround(255.0 * std::clamp(double(colour[i]), 0.0, 1.0));
+  };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(0), byte(1), byte(2));
 }
 
@@ -92,9 +94,7 @@ double ColourWheel::outside_triangle(const Vector2& place) const {
   return -1.5 * corner * std::ranges::min(shares_at(all, place));
 }
 
-Vector2 ColourWheel::place_of_hue(double hue) const {
-  return centre + 0.5 * (inner + outer) * from_top(hue);
-}
+Vector2 ColourWheel::place_of_hue(double hue) const { return centre + 0.5 * (inner + outer) * from_top(hue); }
 
 Vector2 ColourWheel::place_of_shade(const Hsv& colour) const {
   const auto [full, white, black] = corners();

@@ -12,7 +12,7 @@ using base::Vector2;
 
 /// A colour as hue, saturation and value (Smith 1978).
 struct Hsv {
-  double hue = 0.0;  // rad, 0 ... 2 pi; 0: red, a third of a turn on: green
+  double hue = 0.0;                      // rad, 0 ... 2 pi; 0: red, a third of a turn on: green
   double saturation = 0.0, value = 0.0;  // 0 ... 1
 
   bool operator==(const Hsv&) const = default;

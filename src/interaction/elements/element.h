@@ -73,12 +73,12 @@ struct Widget {
   WidgetFeel feel = {};
   /// Of Item: opens as a menu beside it. Rows of a List, pages of Tabs, and what is on a Page.
   std::vector<Widget> widgets = {};
-  std::string unit = {};                            // of Number, behind its value
-  world::Colour colour = {1.0F, 1.0F, 1.0F};        // of Colour
-  std::string chosen = {};                          // name of a List's row or of the page that shows first
-  std::uint32_t rows = 0;                           // of List and of an Item's menu: seen at once; 0: all
-  std::string value_as = {};                        // argument of the operation that takes its value
-  double value_times = 1.0;                         // of Slider and Number: by which that is multiplied
+  std::string unit = {};                      // of Number, behind its value
+  world::Colour colour = {1.0F, 1.0F, 1.0F};  // of Colour
+  std::string chosen = {};                    // name of a List's row or of the page that shows first
+  std::uint32_t rows = 0;                     // of List and of an Item's menu: seen at once; 0: all
+  std::string value_as = {};                  // argument of the operation that takes its value
+  double value_times = 1.0;                   // of Slider and Number: by which that is multiplied
 
   bool can_be_chosen() const {
     return kind != WidgetKind::Label && kind != WidgetKind::Separator && kind != WidgetKind::List &&

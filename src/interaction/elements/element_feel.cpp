@@ -5,7 +5,7 @@
 namespace icome::interaction {
 namespace {
 
-constexpr double kGrooveShare = 0.5;    // of the pull of a well, towards the middle of a ring of hues
+constexpr double kGrooveShare = 0.5;   // of the pull of a well, towards the middle of a ring of hues
 constexpr double kLeastPush = 0.0003;  // m, below a floor that is nearly as deep as a push
 
 /// The feel of a target that is pushed.
@@ -37,8 +37,7 @@ void add_wheel(const Element& element, const LaidWidget& laid, const LaidSheet& 
                std::vector<haptics::PanelTarget>& targets) {
   const WidgetFeel& feel = laid.widget->feel;
   const ColourWheel wheel = wheel_of(laid, element.text_height);
-  haptics::PanelTarget ring =
-      target_at(element, {wheel.centre, Vector2::Constant(wheel.outer)}, sheet, feel);
+  haptics::PanelTarget ring = target_at(element, {wheel.centre, Vector2::Constant(wheel.outer)}, sheet, feel);
   ring.shape = haptics::PanelTarget::Shape::Ring;
   ring.inner = wheel.inner;
   ring.well *= kGrooveShare;
@@ -112,8 +111,8 @@ haptics::PanelSettings ground_of(const Element& element) {
   return panel;
 }
 
-std::vector<FeltSheet> feel_of(const Element& element, const ElementLayout& layout,
-                               const ElementFrame& frame, const ElementSettings& settings) {
+std::vector<FeltSheet> feel_of(const Element& element, const ElementLayout& layout, const ElementFrame& frame,
+                               const ElementSettings& settings) {
   std::vector<FeltSheet> felt;
   for (const LaidSheet& sheet : layout.sheets) {
     felt.push_back({world_from_sheet(frame, sheet), panel_of(element, sheet)});

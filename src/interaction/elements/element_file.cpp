@@ -32,10 +32,10 @@ const Words<ElementKind> kKinds = {{"menu", ElementKind::Menu},
                                    {"ring", ElementKind::Ring},
                                    {"pie", ElementKind::Pie}};
 const Words<WidgetKind> kWidgetKinds = {
-    {"item", WidgetKind::Item},     {"button", WidgetKind::Item},        {"check", WidgetKind::Check},
-    {"toggle", WidgetKind::Check},  {"radio", WidgetKind::Radio},        {"slider", WidgetKind::Slider},
-    {"label", WidgetKind::Label},   {"separator", WidgetKind::Separator}, {"number", WidgetKind::Number},
-    {"list", WidgetKind::List},     {"colour", WidgetKind::Colour},      {"tabs", WidgetKind::Tabs}};
+    {"item", WidgetKind::Item},    {"button", WidgetKind::Item},         {"check", WidgetKind::Check},
+    {"toggle", WidgetKind::Check}, {"radio", WidgetKind::Radio},         {"slider", WidgetKind::Slider},
+    {"label", WidgetKind::Label},  {"separator", WidgetKind::Separator}, {"number", WidgetKind::Number},
+    {"list", WidgetKind::List},    {"colour", WidgetKind::Colour},       {"tabs", WidgetKind::Tabs}};
 const Words<ElementPlace> kPlaces = {{"world", ElementPlace::World},
                                      {"head", ElementPlace::Head},
                                      {"hand", ElementPlace::Hand},
@@ -227,33 +227,35 @@ class ElementReader {
       default:
         read_rows(keys, widget, 0);
     }
-    const bool holds = widget.kind == WidgetKind::Item || widget.kind == WidgetKind::List ||
-                       widget.kind == WidgetKind::Tabs;
+    const bool holds =
+        widget.kind == WidgetKind::Item || widget.kind == WidgetKind::List || widget.kind == WidgetKind::Tabs;
     if (!widget.widgets.empty() && !holds)
-      problems_.add(keys.place(), fmt::format("item '{}': only an item of kind \"item\", \"list\" or \"tabs\" "
-                                              "has items in it.",
-                                              widget.name));
+      problems_.add(keys.place(),
+                    fmt::format("item '{}': only an item of kind \"item\", \"list\" or \"tabs\" "
+                                "has items in it.",
+                                widget.name));
   }
 
   void read_rows(KeyReader& keys, Widget& widget, int otherwise) {
     widget.rows = std::uint32_t(keys.whole("rows", otherwise, kFewestRows, kMostRows));
     if (keys.has("rows") && widget.kind != WidgetKind::List && widget.widgets.empty())
-      problems_.add(keys.place_of("rows"),
-                    fmt::format("item '{}': rows are of a list, or of an item that opens a menu.", widget.name));
+      problems_.add(
+          keys.place_of("rows"),
+          fmt::format("item '{}': rows are of a list, or of an item that opens a menu.", widget.name));
   }
 
   /// Makes all that is in a list rows, and all that is in tabs pages.
   void make_all(KeyReader& keys, Widget& widget, WidgetKind kind, const char* word) {
     if (widget.widgets.empty())
-      problems_.add(keys.place(),
-                    fmt::format("item '{}': it has no {}s; write [[item.item]] below it.", widget.name, word));
+      problems_.add(keys.place(), fmt::format("item '{}': it has no {}s; write [[item.item]] below it.",
+                                              widget.name, word));
     const TomlNode* const items = keys.value("item");
     for (std::size_t i = 0; i < widget.widgets.size(); ++i) {
       Widget& it = widget.widgets[i];
       const io::Place place = items->elements[i].place;
       if (it.kind != WidgetKind::Item || (kind == WidgetKind::Row && !it.widgets.empty()))
-        problems_.add(place, fmt::format("item '{}': a {} is an item of no other kind{}.", it.name,
-                                                    word, kind == WidgetKind::Row ? " and opens no menu" : ""));
+        problems_.add(place, fmt::format("item '{}': a {} is an item of no other kind{}.", it.name, word,
+                                         kind == WidgetKind::Row ? " and opens no menu" : ""));
       if (kind == WidgetKind::Page && it.widgets.empty())
         problems_.add(place, fmt::format("item '{}': the page is empty.", it.name));
       it.kind = kind;
@@ -266,8 +268,9 @@ class ElementReader {
     std::vector<std::string> names;
     for (const Widget& it : widget.widgets) names.push_back(it.name);
     if (!widget.chosen.empty() && std::ranges::find(names, widget.chosen) == names.end())
-      problems_.add(keys.place_of("value"), fmt::format("item '{}': it has no '{}'{}", widget.name,
-                                                        widget.chosen, base::suggestion(widget.chosen, names)));
+      problems_.add(keys.place_of("value"),
+                    fmt::format("item '{}': it has no '{}'{}", widget.name, widget.chosen,
+                                base::suggestion(widget.chosen, names)));
   }
 
   void check_colour(KeyReader& keys, const std::string& key, const std::string& said, const Widget& widget) {
@@ -407,7 +410,8 @@ class ElementReader {
     switch (widget.kind) {
       case WidgetKind::Slider:
       case WidgetKind::Number: {
-        const double second = widget.step > 0.0 ? widget.least + widget.step : 0.5 * (widget.least + widget.most);
+        const double second =
+            widget.step > 0.0 ? widget.least + widget.step : 0.5 * (widget.least + widget.most);
         std::vector<Value> values;
         for (const double value : {widget.least, second, widget.most, widget.value})
           values.emplace_back(widget.value_times * value);
@@ -439,7 +443,8 @@ class ElementReader {
     if (parameter == operation.parameters.end())
       return add(fmt::format("{} takes no '{}'{}", widget.operation, widget.value_as,
                              base::suggestion(widget.value_as, names)));
-    if (values.empty()) return add("it has no value for value_as; a check, slider, number, colour or list has.");
+    if (values.empty())
+      return add("it has no value for value_as; a check, slider, number, colour or list has.");
     if (field(widget.with, widget.value_as) != nullptr)
       return add(fmt::format("'{}' is said in with, too.", widget.value_as));
     for (const Value& value : values)

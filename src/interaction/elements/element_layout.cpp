@@ -183,7 +183,8 @@ class Arranger {
   Vector2 size_of_list(const Widget& list) const {
     const Vector2 rows = size_of_rows(rows_of(list));
     const double text = list.text.empty() ? 0.0 : width_of(list, TextRoom());
-    return {std::max(text, rows.x() + 2.0 * kRoom * unit_), heading_of(list) + rows.y() + 2.0 * kRoom * unit_};
+    return {std::max(text, rows.x() + 2.0 * kRoom * unit_),
+            heading_of(list) + rows.y() + 2.0 * kRoom * unit_};
   }
 
   double width_of_header(const Widget& page) const { return width_of(page, room_of(page)); }
@@ -195,7 +196,8 @@ class Arranger {
       headers += width_of_header(page);
       largest = largest.cwiseMax(size_of_rows({page.widgets, &page}));
     }
-    return {std::max(headers, largest.x()) + 2.0 * kRoom * unit_, kRow * unit_ + largest.y() + 3.0 * kRoom * unit_};
+    return {std::max(headers, largest.x()) + 2.0 * kRoom * unit_,
+            kRow * unit_ + largest.y() + 3.0 * kRoom * unit_};
   }
 
   std::size_t sheet() const { return layout_.sheets.size() - 1; }
@@ -217,7 +219,8 @@ class Arranger {
   }
 
   /// A widget that is one row high.
-  LaidWidget& place_row(const Widget& widget, const Vector2& centre, const Vector2& half, const TextRoom& room) {
+  LaidWidget& place_row(const Widget& widget, const Vector2& centre, const Vector2& half,
+                        const TextRoom& room) {
     if (widget.kind == WidgetKind::Number) {
       const Vector2 handle(0.5 * kHandle * unit_, std::min(half.y(), 0.5 * kRow * unit_));
       const double right = centre.x() + half.x() - handle.x();
@@ -385,8 +388,7 @@ class Arranger {
   /// The size of the largest item, for those round a middle.
   Vector2 largest() const {
     double width = 0.0;
-    for (const Widget& widget : element_.widgets)
-      width = std::max(width, width_of(widget, room_of(widget)));
+    for (const Widget& widget : element_.widgets) width = std::max(width, width_of(widget, room_of(widget)));
     return {width, kRow * unit_};
   }
 
@@ -502,12 +504,14 @@ const LaidWidget* ElementLayout::at(const Vector2& place) const {
 }
 
 const LaidHandle* ElementLayout::handle_at(const Vector2& place) const {
-  const auto found = std::ranges::find_if(handles, [&](const LaidHandle& it) { return it.box.contains(place); });
+  const auto found =
+      std::ranges::find_if(handles, [&](const LaidHandle& it) { return it.box.contains(place); });
   return found == handles.end() ? nullptr : &*found;
 }
 
 const LaidColumn* ElementLayout::column_at(const Vector2& place) const {
-  const auto found = std::ranges::find_if(columns, [&](const LaidColumn& it) { return it.box.contains(place); });
+  const auto found =
+      std::ranges::find_if(columns, [&](const LaidColumn& it) { return it.box.contains(place); });
   return found == columns.end() ? nullptr : &*found;
 }
 

@@ -38,7 +38,7 @@ struct LaidWidget {
   Vector2 centre = Vector2::Zero();
   Vector2 half = Vector2::Zero();  // half its width and height
   std::optional<Sector> sector = {};
-  std::vector<std::string> lines = {};  // its text, broken where it must be
+  std::vector<std::string> lines = {};                // its text, broken where it must be
   bool has_mark_room = false, has_icon_room = false;  // before its text
   bool stands_alone = false;                          // has a border, as a button
 
@@ -134,8 +134,8 @@ LaidBox field_of(const ElementLayout& layout, const Widget& number);
 std::string number_text(double value);
 
 /// Lays the element out, in one of its languages, with the menus of `open` beside the items that open them,
-/// each of which is in the menu before; those whose item does not show are left out. Nobody places anything by
-/// hand: sizes follow from the text.
+/// each of which is in the menu before; those whose item does not show are left out. Nobody places anything
+/// by hand: sizes follow from the text.
 ElementLayout lay_out(const Element& element, std::size_t language, const TextMeasure& measure,
                       std::span<const Widget* const> open = {}, const ShownParts& shown = {});
 

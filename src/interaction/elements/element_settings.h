@@ -35,7 +35,8 @@ class ElementSettings {
   bool is_usable(const Widget& widget) const;
   /// Sets what choosing it sets: ticks it, or makes it the one of its group, list or tabs.
   void choose(const Widget& widget);
-  /// The value that it, or the List of a Row, tells: true or false, a number, "#rrggbb" or a name; null: none.
+  /// The value that it, or the List of a Row, tells: true or false, a number, "#rrggbb" or a name; null:
+  /// none.
   Value value_of(const Widget& widget) const;
   /// What choosing it does: its operation, or that of its List, with its value where that is an argument.
   OperationCall call_of(const Widget& widget) const;

@@ -527,9 +527,7 @@ std::optional<Choice> ElementUse::press(ElementKey key) {
   return std::nullopt;
 }
 
-void ElementUse::edit(const Widget& widget) {
-  edit_ = Edit{&widget, {}, settings_.of(widget).colour};
-}
+void ElementUse::edit(const Widget& widget) { edit_ = Edit{&widget, {}, settings_.of(widget).colour}; }
 
 void ElementUse::give_up_edit() {
   if (edit_->widget->kind == WidgetKind::Colour) settings_.of(*edit_->widget).colour = edit_->before;

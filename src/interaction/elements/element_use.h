@@ -176,7 +176,7 @@ class ElementUse {
   double near_seconds_ = 0.0;  // s
   bool button_ = false;
   haptics::PanelSide side_ = haptics::PanelSide::Unknown;
-  bool armed_ = true;  // may a push count?
+  bool armed_ = true;                          // may a push count?
   std::optional<Vector2> pointed_place_ = {};  // where the pointer was near the last time
   std::optional<HandleName> lit_handle_ = {};  // by the pointer
   std::optional<Hold> held_ = {};

@@ -38,19 +38,18 @@ struct Colours {
 Colours colours_of(ElementTheme theme) {
   switch (theme) {
     case ElementTheme::Light:
-      return {{0.985, 0.987, 0.99}, charts::kInk,    {0.58, 0.61, 0.66},  {0.80, 0.83, 0.87},
-              {0.10, 0.43, 0.78},   {1.0, 1.0, 1.0}, {0.91, 0.93, 0.955}, charts::kInk,
+      return {{0.985, 0.987, 0.99}, charts::kInk,      {0.58, 0.61, 0.66},  {0.80, 0.83, 0.87},
+              {0.10, 0.43, 0.78},   {1.0, 1.0, 1.0},   {0.91, 0.93, 0.955}, charts::kInk,
               {1.0, 1.0, 1.0},      {0.78, 0.13, 0.10}};
     case ElementTheme::Dark:
       return {{0.15, 0.165, 0.19}, {0.93, 0.94, 0.95}, {0.50, 0.53, 0.57},  {0.30, 0.33, 0.37},
               {0.25, 0.56, 0.93},  {1.0, 1.0, 1.0},    {0.21, 0.23, 0.265}, {0.93, 0.94, 0.95},
-              {0.10, 0.11, 0.13},   {1.0, 0.45, 0.40}};
+              {0.10, 0.11, 0.13},  {1.0, 0.45, 0.40}};
     case ElementTheme::HighContrast:
       break;
   }
-  return {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {0.65, 0.65, 0.65}, {1.0, 1.0, 1.0},
-          {1.0, 1.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0},    {1.0, 1.0, 1.0},
-          {0.0, 0.0, 0.0}, {1.0, 0.5, 0.5}};
+  return {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {0.65, 0.65, 0.65}, {1.0, 1.0, 1.0}, {1.0, 1.0, 0.0},
+          {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0},    {0.0, 0.0, 0.0}, {1.0, 0.5, 0.5}};
 }
 
 /// Draws one sheet; the page's y grows downward from the sheet's upper edge.
@@ -167,7 +166,9 @@ class SheetPainter {
     const Area area = area_of(interaction::field_of(use_.layout(), number));
     const std::string* const typed = use_.typed_into(number);
     const bool is_lit = use_.lit() == &number, is_wrong = typed != nullptr && !use_.trouble().empty();
-    const charts::Stroke border{is_wrong ? colours_.wrong : is_lit ? colours_.lit : colours_.line,
+    const charts::Stroke border{is_wrong ? colours_.wrong
+                                : is_lit ? colours_.lit
+                                         : colours_.line,
                                 (is_lit ? 0.22 : 0.1) * unit_,
                                 {}};
     canvas_.fill(area, colours_.field);
@@ -187,8 +188,8 @@ class SheetPainter {
     if (handle.kind == HandleKind::Bar) return paint_bar(handle, area, is_lit);
     canvas_.fill(area, is_lit ? colours_.lit : colours_.title);
     canvas_.line(outline_of(area), {colours_.line, 0.1 * unit_, {}});
-    const bool is_off = handle.of != nullptr && (is_number ? !use_.settings().is_usable(*handle.of)
-                                                           : !handle.of->enabled);
+    const bool is_off =
+        handle.of != nullptr && (is_number ? !use_.settings().is_usable(*handle.of) : !handle.of->enabled);
     const Colour ink = is_off || !leads_on(handle) ? colours_.quiet : is_lit ? colours_.on_lit : colours_.ink;
     const Vector2 middle(area.x + 0.5 * area.width, area.y + 0.5 * area.height);
     is_number ? paint_sign(middle, handle.kind, ink) : paint_way(middle, handle.kind, ink);
@@ -223,12 +224,12 @@ class SheetPainter {
     constexpr double kLeastThumb = 0.8;  // heights of a letter
     canvas_.fill(area, colours_.title);
     const interaction::LaidColumn& column = *use_.layout().column(bar.of);
-    const double height =
-        std::min(area.height, std::max(kLeastThumb * unit_,
-                                       area.height * double(column.seen) / double(column.count)));
+    const double height = std::min(
+        area.height, std::max(kLeastThumb * unit_, area.height * double(column.seen) / double(column.count)));
     const double share = double(column.first) / double(std::max<std::size_t>(1, column.last_first()));
-    canvas_.fill({area.x + 0.3 * unit_, area.y + share * (area.height - height), area.width - 0.6 * unit_, height},
-                 is_lit ? colours_.lit : colours_.quiet);
+    canvas_.fill(
+        {area.x + 0.3 * unit_, area.y + share * (area.height - height), area.width - 0.6 * unit_, height},
+        is_lit ? colours_.lit : colours_.quiet);
   }
 
   /// A picture of the ring and the triangle, on paper.
@@ -240,18 +241,20 @@ class SheetPainter {
     const double pixel = 2.0 * half.x() / kSide;
     for (int y = 0; y < kSide; ++y)
       for (int x = 0; x < kSide; ++x) {
-        const Vector2 place = wheel.centre + Vector2((x + 0.5) * pixel - half.x(), half.y() - (y + 0.5) * pixel);
+        const Vector2 place =
+            wheel.centre + Vector2((x + 0.5) * pixel - half.x(), half.y() - (y + 0.5) * pixel);
         const double r = (place - wheel.centre).norm();
-        const double on_ring = std::clamp(0.5 - (std::abs(r - 0.5 * (wheel.inner + wheel.outer)) -
-                                                 0.5 * (wheel.outer - wheel.inner)) / pixel, 0.0, 1.0);
+        const double on_ring = std::clamp(
+            0.5 -
+                (std::abs(r - 0.5 * (wheel.inner + wheel.outer)) - 0.5 * (wheel.outer - wheel.inner)) / pixel,
+            0.0, 1.0);
         const double on_triangle = std::clamp(0.5 - wheel.outside_triangle(place) / pixel, 0.0, 1.0);
         world::Colour hue = {}, shade = {};
         if (on_ring > 0.0) hue = interaction::rgb_of({wheel.with_hue_at({}, place).hue, 1.0, 1.0});
         if (on_triangle > 0.0) shade = interaction::rgb_of(wheel.with_shade_at(set, place));
         const std::array<double, 3> paper{colours_.paper.red, colours_.paper.green, colours_.paper.blue};
         for (std::size_t i = 0; i < 3; ++i) {
-          const double value =
-              paper[i] + on_ring * (hue[i] - paper[i]) + on_triangle * (shade[i] - paper[i]);
+          const double value = paper[i] + on_ring * (hue[i] - paper[i]) + on_triangle * (shade[i] - paper[i]);
           image.rgba.push_back(std::uint8_t(std::lround(255.0 * std::clamp(value, 0.0, 1.0))));
         }
         image.rgba.push_back(255);

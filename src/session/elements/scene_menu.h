@@ -17,8 +17,8 @@ namespace icome::session {
 struct MenuChoice {
   interaction::Widget widget;
   interaction::ChosenBy by = interaction::ChosenBy::Click;
-  bool checked = false;  // of Check and Radio
-  double value = 0.0;    // of Slider and Number
+  bool checked = false;                  // of Check and Radio
+  double value = 0.0;                    // of Slider and Number
   interaction::OperationCall call = {};  // what it does, with its value
 };
 

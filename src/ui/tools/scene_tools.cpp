@@ -198,9 +198,9 @@ bool SceneTools::takes_key(int key, Qt::KeyboardModifiers modifiers) const {
 bool SceneTools::menu_key(int key) {
   using interaction::ElementKey;
   static constexpr std::pair<int, ElementKey> kKeys[] = {
-      {Qt::Key_Up, ElementKey::Up},        {Qt::Key_Down, ElementKey::Down},
-      {Qt::Key_Left, ElementKey::Left},    {Qt::Key_Right, ElementKey::Right},
-      {Qt::Key_Return, ElementKey::Enter}, {Qt::Key_Enter, ElementKey::Enter},
+      {Qt::Key_Up, ElementKey::Up},         {Qt::Key_Down, ElementKey::Down},
+      {Qt::Key_Left, ElementKey::Left},     {Qt::Key_Right, ElementKey::Right},
+      {Qt::Key_Return, ElementKey::Enter},  {Qt::Key_Enter, ElementKey::Enter},
       {Qt::Key_Escape, ElementKey::Escape}, {Qt::Key_Backspace, ElementKey::Backspace},
       {Qt::Key_PageUp, ElementKey::PageUp}, {Qt::Key_PageDown, ElementKey::PageDown}};
   if (const char letter = typed_letter(key); letter != '\0' && session_.menu().type(letter)) return true;

@@ -100,7 +100,8 @@ TEST(Panel, RingsAndTrianglesAreWhereTheirBordersAre) {
       return up > 0.0 && up < 1.5 * R - std::sqrt(3.0) * std::abs(offset.x());
     };
     for (int k = 0; k < 300; ++k) {
-      const Vector2 place = target.centre + 1.1 * target.half.x() * Vector2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+      const Vector2 place = target.centre + 1.1 * target.half.x() *
+                                                Vector2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
       constexpr double kFlanks = 0.00151;  // m
       bool all = true, none = true;
       for (int way = 0; way < 64; ++way) {

@@ -29,12 +29,14 @@ Hsv random_hsv(base::Random& random) {
 /// The hexagon of full hues, from corner to corner by straight lines, and from there to white and black: the
 /// definition of Smith (1978) without its formulas.
 world::Colour by_the_hexagon(const Hsv& hsv) {
-  constexpr double kCorners[7][3] = {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}};
+  constexpr double kCorners[7][3] = {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1, 1},
+                                     {0, 0, 1}, {1, 0, 1}, {1, 0, 0}};
   const double sixth = 6.0 * hsv.hue / kFullCircle;
   const int corner = std::min(5, int(sixth));
   world::Colour colour;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double full = kCorners[corner][i] + (sixth - corner) * (kCorners[corner + 1][i] - kCorners[corner][i]);
+    const double full =
+        kCorners[corner][i] + (sixth - corner) * (kCorners[corner + 1][i] - kCorners[corner][i]);
     colour[i] = float(hsv.value * (1.0 + hsv.saturation * (full - 1.0)));
   }
   return colour;
@@ -140,7 +142,8 @@ TEST(ColourWheel, PartsAndDistancesAreThoseOfTheirShapes) {
     for (int k = 0; k < 600; ++k) {
       const double share = (k % 200) / 200.0;
       const auto side = std::size_t(k / 200);
-      nearest = std::min(nearest, (corners[side] + share * (corners[(side + 1) % 3] - corners[side]) - place).norm());
+      nearest = std::min(nearest,
+                         (corners[side] + share * (corners[(side + 1) % 3] - corners[side]) - place).norm());
     }
     ASSERT_NEAR(std::abs(wheel.outside_triangle(place)), nearest, 1.5e-4);
     ASSERT_EQ(wheel.outside_triangle(place) <= 0.0, inside);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "interaction/elements/element_use.h"
-
 #include "places.h"
 
 namespace icome::interaction {
@@ -88,7 +87,8 @@ TEST(ElementFile, SaysWhatIsWrongWithTheNewKindsAndWhere) {
   const auto expect = [&](const std::string& toml, const std::string& what) {
     EXPECT_NE(wrong(toml).find(what), std::string::npos) << wrong(toml);
   };
-  const std::string number = "kind = \"number\"\n", colour = "kind = \"colour\"\n", list = "kind = \"list\"\n";
+  const std::string number = "kind = \"number\"\n", colour = "kind = \"colour\"\n",
+                    list = "kind = \"list\"\n";
   const std::string row = "[[item.item]]\nname = \"r\"\n";
   expect(item(number + "least = 5\nmost = 5\n"), "m.toml:5:8: item 'A': most must be above least.");
   expect(item(number + "value = 200\n"), "m.toml:4:9: item: value is 200; choose a number from 0 to 100.");
@@ -96,7 +96,8 @@ TEST(ElementFile, SaysWhatIsWrongWithTheNewKindsAndWhere) {
   expect(item(number + "unit = 3\n"), "m.toml:4:8:");
   expect(item(colour + "value = \"yelow\"\n"), "m.toml:4:9: item 'A': there is no colour 'yelow'");
   expect(item(list), "m.toml:1:1: item 'A': it has no rows");
-  expect(item(list + "rows = 2\n" + row), "m.toml:4:8: item: rows is 2; choose a whole number from 3 to 100.");
+  expect(item(list + "rows = 2\n" + row),
+         "m.toml:4:8: item: rows is 2; choose a whole number from 3 to 100.");
   expect(item(list + "value = \"s\"\n" + row), "m.toml:4:9: item 'A': it has no 's'");
   expect(item(list + row + "kind = \"check\"\n"), "m.toml:4:1: item 'r': a row is an item of no other kind");
   expect(item(list + row + "[[item.item.item]]\nname = \"x\"\n"), "m.toml:4:1: item 'r': a row");
@@ -109,13 +110,18 @@ TEST(ElementFile, SaysWhatIsWrongWithTheNewKindsAndWhere) {
   // Values for operations.
   const std::string op = "operation = \"colour\"\n";
   expect(item(colour + "value_as = \"colour\"\n"), "m.toml:4:12: item 'A': value_as needs operation.");
-  expect(item(colour + op + "value_as = \"color\"\n"), "m.toml:5:12: item 'A': colour takes no 'color'; did you mean");
-  expect(item(number + op + "value_as = \"colour\"\n"), "m.toml:5:12: item 'A': its value does not fit: 'colour'");
+  expect(item(colour + op + "value_as = \"color\"\n"),
+         "m.toml:5:12: item 'A': colour takes no 'color'; did you mean");
+  expect(item(number + op + "value_as = \"colour\"\n"),
+         "m.toml:5:12: item 'A': its value does not fit: 'colour'");
   expect(item(op + "value_as = \"colour\"\n"), "m.toml:4:12: item 'A': it has no value");
-  expect(item(colour + op + "value_as = \"colour\"\nwith = { colour = \"red\" }\n"), "m.toml:5:12: item 'A': 'colour' is said");
-  expect(item(number + "least = -5\noperation = \"place\"\nvalue_as = \"factor\"\n"), "m.toml:6:12: item 'A': its value");
+  expect(item(colour + op + "value_as = \"colour\"\nwith = { colour = \"red\" }\n"),
+         "m.toml:5:12: item 'A': 'colour' is said");
+  expect(item(number + "least = -5\noperation = \"place\"\nvalue_as = \"factor\"\n"),
+         "m.toml:6:12: item 'A': its value");
   expect(item(number + "value_times = 2\n"), "m.toml:4:15: item 'A': value_times needs value_as.");
-  expect(item(list + "operation = \"create\"\nvalue_as = \"shape\"\n" + row), "m.toml:5:12: item 'A': its value does not fit");
+  expect(item(list + "operation = \"create\"\nvalue_as = \"shape\"\n" + row),
+         "m.toml:5:12: item 'A': its value does not fit");
   EXPECT_EQ(wrong(item(colour + op + "value_as = \"colour\"\n")), "");
 }
 

@@ -27,10 +27,9 @@ Widget random_widget(base::Random& random, WidgetKind kind) {
 std::vector<Widget> random_column(base::Random& random, std::size_t count, int depth) {
   std::vector<Widget> widgets;
   for (std::size_t i = 0; i < count; ++i) {
-    constexpr std::array kKinds = {WidgetKind::Item,   WidgetKind::Check,     WidgetKind::Radio,
-                                   WidgetKind::Slider, WidgetKind::Label,     WidgetKind::Separator,
-                                   WidgetKind::Number, WidgetKind::List,      WidgetKind::Colour,
-                                   WidgetKind::Tabs};
+    constexpr std::array kKinds = {
+        WidgetKind::Item,      WidgetKind::Check,  WidgetKind::Radio, WidgetKind::Slider, WidgetKind::Label,
+        WidgetKind::Separator, WidgetKind::Number, WidgetKind::List,  WidgetKind::Colour, WidgetKind::Tabs};
     Widget widget = random_widget(random, kKinds[random.index(kKinds.size())]);
     if (widget.kind == WidgetKind::Tabs && depth == 0) widget.kind = WidgetKind::Item;
     if (widget.kind == WidgetKind::List) {
@@ -73,7 +72,8 @@ Element random_element(base::Random& random, ElementKind kind, std::size_t count
 /// Some pages and rows of all that is in the widgets.
 void show_at_random(base::Random& random, const std::vector<Widget>& widgets, ShownParts& shown) {
   for (const Widget& widget : widgets) {
-    if (widget.kind == WidgetKind::Tabs) shown.pages[&widget] = &widget.widgets[random.index(widget.widgets.size())];
+    if (widget.kind == WidgetKind::Tabs)
+      shown.pages[&widget] = &widget.widgets[random.index(widget.widgets.size())];
     if (widget.kind == WidgetKind::List) shown.first_rows[&widget] = random.index(30);
     show_at_random(random, widget.widgets, shown);
   }
@@ -123,7 +123,8 @@ void expect_rows(const ElementLayout& layout, const ShownParts& shown) {
     EXPECT_EQ(column.count, rows.size());
     EXPECT_LE(column.first + column.seen, column.count);
     const auto asked = shown.first_rows.find(column.of);
-    if (asked != shown.first_rows.end()) EXPECT_EQ(column.first, std::min(asked->second, column.last_first()));
+    if (asked != shown.first_rows.end())
+      EXPECT_EQ(column.first, std::min(asked->second, column.last_first()));
     double last = 1e9;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const LaidWidget* const laid = layout.widget(rows[i]);
@@ -154,7 +155,8 @@ TEST(ElementLayout, KeepsWidgetsApartAndOnTheirSheet) {
     expect_apart(layout);
     expect_handles_apart(layout);
     expect_rows(layout, shown);
-    for (const LaidFrame& frame : layout.frames) EXPECT_TRUE(is_in(frame.box, box_of(layout.sheets[frame.sheet])));
+    for (const LaidFrame& frame : layout.frames)
+      EXPECT_TRUE(is_in(frame.box, box_of(layout.sheets[frame.sheet])));
     for (const LaidWidget& laid : layout.widgets) {
       EXPECT_GE(2.0 * laid.half.x() + 1e-9, laid.widget->kind == WidgetKind::Item
                                                 ? element.text_height * 0.8 * double(laid.widget->name.size())
@@ -173,8 +175,8 @@ TEST(ElementLayout, KeepsWidgetsApartAndOnTheirSheet) {
 }
 
 TEST(ElementLayout, AFieldHoldsEveryValueOfItsNumber) {
-  const Element element = element_of(
-      "[[item]]\nname = \"N\"\nkind = \"number\"\nleast = -1000\nmost = 20000\nunit = \"mm\"\n");
+  const Element element =
+      element_of("[[item]]\nname = \"N\"\nkind = \"number\"\nleast = -1000\nmost = 20000\nunit = \"mm\"\n");
   const ElementLayout layout = lay_out(element, 0, even_letters());
   const LaidBox field = field_of(layout, element.widgets.front());
   EXPECT_GE(2.0 * field.half.x(), 0.8 * 8.0 * element.text_height);

@@ -102,7 +102,8 @@ TEST(WidgetUse, ScrollingFollowsAModelAndNeverPassesTheEnds) {
           const double share = random.uniform(0.0, 1.0);
           const Vector2 at = bar.box.centre + Vector2(0.0, (1.0 - 2.0 * share) * bar.box.half.y());
           it.hand.click_at(at);
-          first = std::clamp<std::ptrdiff_t>(std::lround(share * double(count) - 0.5 * double(rows)), 0, last);
+          first =
+              std::clamp<std::ptrdiff_t>(std::lround(share * double(count) - 0.5 * double(rows)), 0, last);
           light = -1;
         }
       }
@@ -166,13 +167,15 @@ TEST(WidgetUse, AMenuWithRowsScrollsAsAListDoes) {
 }
 
 constexpr const char* kNumbers =
-    "[[item]]\nname = \"Width\"\nkind = \"number\"\nleast = 10\nmost = 200\nstep = 5\nvalue = 100\nunit = \"mm\"\n"
+    "[[item]]\nname = \"Width\"\nkind = \"number\"\nleast = 10\nmost = 200\nstep = 5\nvalue = 100\nunit = "
+    "\"mm\"\n"
     "[[item]]\nname = \"Turn\"\nkind = \"number\"\nleast = -1\nmost = 1\nstep = 0.1\nvalue = 0\n";
 
 TEST(WidgetUse, ANumberStepsWithinItsRange) {
   UsedElement it(kNumbers);
   const Widget& width = it.widget("Width");
-  const Vector2 less = middle_of(it, HandleKind::Less, &width), more = middle_of(it, HandleKind::More, &width);
+  const Vector2 less = middle_of(it, HandleKind::Less, &width),
+                more = middle_of(it, HandleKind::More, &width);
   EXPECT_EQ(it.hand.click_at(more), "Width");
   EXPECT_EQ(it.use.value_of(width), 105.0);
   EXPECT_EQ(it.hand.push_at(less), "Width");
@@ -426,7 +429,8 @@ TEST(WidgetUse, APushChoosesAtMostOnce) {
   std::size_t chosen = 0;
   for (int i = 0; i < repeats(1500); ++i) {
     const LaidSheet& sheet = it.use.layout().sheets.front();
-    const Vector2 place = sheet.centre + sheet.half.cwiseProduct(Vector2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)));
+    const Vector2 place =
+        sheet.centre + sheet.half.cwiseProduct(Vector2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)));
     const std::uint64_t before = it.use.pushes();
     const std::string names = it.hand.push_at(place);
     EXPECT_EQ(it.use.pushes(), before + 1);

@@ -184,8 +184,7 @@ double largest_step(const char* toml, double size, int ways) {
     const Vector3 to = frame.in_world(place) + size * depth * frame.normal();
     if (way % 3 == 2) {
       scene.menu.close();
-      if (way % 2 == 0)
-        scene.menu.open(interaction::element_of(toml), 0, interaction::even_letters(), frame);
+      if (way % 2 == 0) scene.menu.open(interaction::element_of(toml), 0, interaction::even_letters(), frame);
     }
     if (scene.menu.use() == nullptr && way % 3 == 1)
       scene.menu.open(interaction::element_of(toml), 0, interaction::even_letters(), frame);
@@ -234,8 +233,7 @@ TEST(SceneMenu, WhatIsFeltFollowsPagesRowsAndHue) {
   };
   using Shape = haptics::PanelTarget::Shape;
   scene.menu.follow(0.0);
-  const auto wheel =
-      interaction::wheel_of(*use.layout().widget(widget("Colour")), use.element().text_height);
+  const auto wheel = interaction::wheel_of(*use.layout().widget(widget("Colour")), use.element().text_height);
   const Vector2 red = wheel.place_of_hue(0.0), blue = wheel.place_of_hue(4.0);
   ASSERT_EQ(targets_at(scene.menu, red).size(), 2U) << "the ring, and the well of its hue";
   EXPECT_EQ(targets_at(scene.menu, red)[0].shape, Shape::Ring);
@@ -265,11 +263,13 @@ TEST(SceneMenu, WhatIsFeltFollowsPagesRowsAndHue) {
   scene.menu.choose("f");
   EXPECT_TRUE(scene.menu.follow(0.4));
   EXPECT_GT(targets_at(scene.menu, second).front().well, 0.0) << "another row is there now";
-  const auto bar = targets_at(scene.menu, use.layout().handle(interaction::HandleKind::Bar, &widget("List"))->box.centre);
+  const auto bar =
+      targets_at(scene.menu, use.layout().handle(interaction::HandleKind::Bar, &widget("List"))->box.centre);
   ASSERT_EQ(bar.size(), 1U);
   EXPECT_EQ(bar.front().well, 0.0);
   EXPECT_GT(bar.front().recess, 0.0);
-  const auto arrow = targets_at(scene.menu, use.layout().handle(interaction::HandleKind::Less, &widget("List"))->box.centre);
+  const auto arrow =
+      targets_at(scene.menu, use.layout().handle(interaction::HandleKind::Less, &widget("List"))->box.centre);
   EXPECT_GT(arrow.front().well, 0.0);
 }
 
@@ -289,7 +289,8 @@ TEST(SceneMenu, TheMouseHoldsWhatItTookAlsoBesideTheSheet) {
   scene.pass({});
   EXPECT_FALSE(scene.menu.point_by_mouse(way_to(wheel.centre + Vector2(0.4, 0.0)), true, scene.time += 0.01));
   EXPECT_NEAR(hue(), 0.5 * std::numbers::pi, 1e-6);
-  const auto chosen = scene.menu.point_by_mouse(way_to(wheel.centre + Vector2(0.4, 0.0)), false, scene.time += 0.01);
+  const auto chosen =
+      scene.menu.point_by_mouse(way_to(wheel.centre + Vector2(0.4, 0.0)), false, scene.time += 0.01);
   ASSERT_TRUE(chosen);
   EXPECT_EQ(chosen->widget.name, "Colour");
   EXPECT_FALSE(scene.menu.is_held_by_mouse());

@@ -49,8 +49,7 @@ class MenuActionsTest : public WindowTest {
   /// The same of a place of its plane.
   QPointF pixel_of(const base::Vector2& place) {
     const interaction::View& view = session().view().now();
-    const Vector3 seen =
-        view.world_from_eye.inverse() * session().menu().use()->frame().in_world(place);
+    const Vector3 seen = view.world_from_eye.inverse() * session().menu().use()->frame().in_world(place);
     const QSizeF size = mouse_.size();
     const double scale =
         0.5 * std::min(size.width(), size.height()) / (std::tan(0.5 * view.field) * -seen.z());
@@ -235,7 +234,8 @@ TEST_F(MenuActionsTest, ThePickerColoursWhatIsSelectedByMouseAndKeys) {
   const interaction::Widget& picker = widget("Any colour");
   const auto wheel = interaction::wheel_of(*use.layout().widget(picker), use.element().text_height);
   // Held at the ring, and let go beside the menu, two thirds round.
-  const QPointF from = pixel_of(wheel.place_of_hue(0.5)), to = pixel_of(wheel.centre + base::Vector2(-0.9, -0.5196));
+  const QPointF from = pixel_of(wheel.place_of_hue(0.5)),
+                to = pixel_of(wheel.centre + base::Vector2(-0.9, -0.5196));
   mouse_.move(from);
   mouse_.press(from);
   mouse_.move(0.5 * (from + to));
