@@ -242,6 +242,7 @@ std::optional<Choice> ElementUse::press_at(const Vector2& place, ChosenBy by) {
 }
 
 void ElementUse::hold(const HandleName& handle, ChosenBy by, const Vector2& place) {
+  if (edit_ && edit_->widget != handle.of) give_up_edit();
   edit_.reset();
   held_ = Hold{handle, by, time_, time_ + kRepeatsAfter};
   if (handle.of != nullptr && handle.of->can_be_chosen() && handle.of->kind != WidgetKind::Item)
