@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/near_names.h"
+#include "interaction/elements/colour_wheel.h"
 #include "interaction/operations/looks/colour_names.h"
 #include "interaction/operations/operation.h"
 #include "interaction/operations/toml_value.h"

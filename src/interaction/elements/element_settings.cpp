@@ -1,7 +1,10 @@
 #include "interaction/elements/element_settings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace icome::interaction {
 namespace {
@@ -19,6 +22,8 @@ double within(const Widget& widget, double value) {
     value = widget.least + widget.step * std::round((value - widget.least) / widget.step);
   return std::clamp(value, widget.least, widget.most);
 }
+
+double rounded_value(double value) { return std::stod(fmt::format("{:.12g}", value)); }
 
 ElementSettings::ElementSettings(const Element& element) { add(element.widgets, nullptr); }
 
@@ -86,7 +91,7 @@ OperationCall ElementSettings::call_of(const Widget& widget) const {
   if (doer.operation.empty() || doer.value_as.empty()) return call;
   // A row that is not the chosen one tells what it would be.
   Value value = widget.kind == WidgetKind::Row ? Value(widget.name) : value_of(doer);
-  if (const double* const number = value.number()) value = *number * doer.value_times;
+  if (const double* const number = value.number()) value = rounded_value(*number * doer.value_times);
   call.arguments.emplace_back(doer.value_as, std::move(value));
   return call;
 }

@@ -50,4 +50,7 @@ class ElementSettings {
 /// A value within the range of a Slider or Number; of a Slider also at one of its steps.
 double within(const Widget& widget, double value);
 
+/// A value without what adding 0.1 again and again leaves in its last digits.
+double rounded_value(double value);
+
 }  // namespace icome::interaction

@@ -66,9 +66,6 @@ std::ptrdiff_t place_in(const std::vector<Widget>& widgets, const Widget& widget
   return &widget - widgets.data();
 }
 
-/// Without what adding 0.1 again and again leaves.
-double rounded(double value) { return std::stod(fmt::format("{:.12g}", value)); }
-
 }  // namespace
 
 const Widget* find_widget(const std::vector<Widget>& widgets, std::string_view name) {
@@ -311,7 +308,7 @@ void ElementUse::step_handle(const HandleName& handle) {
 void ElementUse::step_value(const Widget& widget, double steps) {
   const double step = widget.step > 0.0 ? widget.step : kSliderShare * (widget.most - widget.least);
   double& value = settings_.of(widget).value;
-  value = within(widget, rounded(value + steps * step));
+  value = within(widget, rounded_value(value + steps * step));
 }
 
 std::optional<Choice> ElementUse::choose(const Widget& widget, ChosenBy by) {
@@ -538,7 +535,7 @@ void ElementUse::give_up_edit() {
 void ElementUse::change_colour(const Widget& widget, ElementKey key) {
   Hsv& colour = settings_.of(widget).colour;
   const auto changed = [](double share, bool more) {
-    return std::clamp(rounded(share + (more ? kShadeStep : -kShadeStep)), 0.0, 1.0);
+    return std::clamp(rounded_value(share + (more ? kShadeStep : -kShadeStep)), 0.0, 1.0);
   };
   switch (key) {
     case ElementKey::Left:

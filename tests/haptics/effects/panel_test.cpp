@@ -93,11 +93,11 @@ TEST(Panel, RingsAndTrianglesAreWhereTheirBordersAre) {
     const Panel panel(settings);
     const auto is_inside = [&](const Vector2& place) {
       const Vector2 offset = place - target.centre;
-      const double r = offset.norm(), R = target.half.x();
-      if (target.shape == PanelTarget::Shape::Ring) return r > target.inner && r < R;
+      const double r = offset.norm(), outer = target.half.x();
+      if (target.shape == PanelTarget::Shape::Ring) return r > target.inner && r < outer;
       // Its lower side is level; the other two run from there to the top at 60 degrees.
-      const double up = offset.y() + 0.5 * R;
-      return up > 0.0 && up < 1.5 * R - std::sqrt(3.0) * std::abs(offset.x());
+      const double up = offset.y() + 0.5 * outer;
+      return up > 0.0 && up < 1.5 * outer - std::sqrt(3.0) * std::abs(offset.x());
     };
     for (int k = 0; k < 300; ++k) {
       const Vector2 place = target.centre + 1.1 * target.half.x() *
@@ -111,8 +111,12 @@ TEST(Panel, RingsAndTrianglesAreWhereTheirBordersAre) {
         none = none && !inside;
       }
       const double height = panel.ground_at(place).height;
-      if (all && is_inside(place)) EXPECT_NEAR(height, -target.recess, 1e-6);
-      if (!is_inside(place)) EXPECT_EQ(height, 0.0);
+      if (all && is_inside(place)) {
+        EXPECT_NEAR(height, -target.recess, 1e-6);
+      }
+      if (!is_inside(place)) {
+        EXPECT_EQ(height, 0.0);
+      }
     }
   }
 }

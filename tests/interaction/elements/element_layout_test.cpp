@@ -111,7 +111,9 @@ void expect_handles_apart(const ElementLayout& layout) {
       if (laid.sheet != handle.sheet) continue;
       const bool is_own = laid.widget == handle.of && laid.widget->kind == WidgetKind::Number;
       EXPECT_EQ(overlap(handle.box, box_of(laid)), is_own);
-      if (is_own) EXPECT_TRUE(is_in(handle.box, box_of(laid)));
+      if (is_own) {
+        EXPECT_TRUE(is_in(handle.box, box_of(laid)));
+      }
     }
   }
 }
@@ -123,8 +125,9 @@ void expect_rows(const ElementLayout& layout, const ShownParts& shown) {
     EXPECT_EQ(column.count, rows.size());
     EXPECT_LE(column.first + column.seen, column.count);
     const auto asked = shown.first_rows.find(column.of);
-    if (asked != shown.first_rows.end())
+    if (asked != shown.first_rows.end()) {
       EXPECT_EQ(column.first, std::min(asked->second, column.last_first()));
+    }
     double last = 1e9;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const LaidWidget* const laid = layout.widget(rows[i]);
@@ -151,7 +154,9 @@ TEST(ElementLayout, KeepsWidgetsApartAndOnTheirSheet) {
       if (widget.opens_menu() && open.empty()) open.push_back(&widget);
     const ElementLayout layout = lay_out(element, 0, even_letters(), open, shown);
     ASSERT_EQ(layout.sheets.size(), 1 + open.size());
-    if (!is_column) ASSERT_EQ(layout.widgets.size(), element.widgets.size() + (open.empty() ? 0 : 3));
+    if (!is_column) {
+      ASSERT_EQ(layout.widgets.size(), element.widgets.size() + (open.empty() ? 0 : 3));
+    }
     expect_apart(layout);
     expect_handles_apart(layout);
     expect_rows(layout, shown);
@@ -203,8 +208,9 @@ TEST(ElementLayout, TabsAreAsLargeAsTheirLargestPage) {
       for (const Widget& header : laid.widgets)
         EXPECT_EQ(other.widget(header)->centre, first.widget(header)->centre);
       for (const Widget& below : page.widgets)
-        if (below.kind != WidgetKind::Tabs && below.kind != WidgetKind::List)
+        if (below.kind != WidgetKind::Tabs && below.kind != WidgetKind::List) {
           EXPECT_NE(other.widget(below), nullptr);
+        }
     }
   }
 }

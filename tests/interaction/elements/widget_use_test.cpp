@@ -42,14 +42,20 @@ TEST(WidgetUse, ARowIsTheOneOfItsListHoweverItIsChosen) {
     EXPECT_EQ(it.use.layout().widget(it.widget("r3")), nullptr);
     ASSERT_TRUE(it.use.show("r3"));
     EXPECT_EQ(column_in(it, &list).first, 3U);
-    if (way == 0) EXPECT_EQ(it.hand.click("r4"), "r4");
-    if (way == 1) EXPECT_EQ(it.hand.push("r4"), "r4");
+    if (way == 0) {
+      EXPECT_EQ(it.hand.click("r4"), "r4");
+    }
+    if (way == 1) {
+      EXPECT_EQ(it.hand.push("r4"), "r4");
+    }
     if (way == 2) {
       it.use.press(ElementKey::Down);
       for (int i = 0; i < 5; ++i) it.use.press(ElementKey::Down);
       EXPECT_EQ(it.use.press(ElementKey::Enter)->widget->name, "r4");
     }
-    if (way == 3) EXPECT_EQ(it.use.choose("r4")->widget->name, "r4");
+    if (way == 3) {
+      EXPECT_EQ(it.use.choose("r4")->widget->name, "r4");
+    }
     EXPECT_EQ(it.use.settings().of(list).chosen->name, "r4");
     EXPECT_EQ(*it.use.settings().value_of(list).text(), "r4");
     EXPECT_NE(it.use.layout().widget(it.widget("r4")), nullptr);
@@ -108,7 +114,9 @@ TEST(WidgetUse, ScrollingFollowsAModelAndNeverPassesTheEnds) {
         }
       }
       ASSERT_EQ(std::ptrdiff_t(column_in(it, &list).first), first) << trial << ' ' << step;
-      if (light == -1) ASSERT_EQ(it.use.lit(), nullptr);
+      if (light == -1) {
+        ASSERT_EQ(it.use.lit(), nullptr);
+      }
       for (std::size_t i = 0; i < count; ++i)
         ASSERT_EQ(it.use.layout().widget(list.widgets[i]) != nullptr,
                   std::ptrdiff_t(i) >= first && std::ptrdiff_t(i) < first + std::ptrdiff_t(rows));
@@ -136,7 +144,7 @@ TEST(WidgetUse, TheLightMovesThroughRowsThatAreNotSeenAndTheListFollows) {
   EXPECT_EQ(column_in(it, &list).first, 493U);
   for (int i = 0; i < 100; ++i) it.use.press(ElementKey::PageUp);
   EXPECT_EQ(it.use.lit()->name, "Before");
-  EXPECT_EQ(column_in(it, &list).first, 0U);
+  EXPECT_EQ(column_in(it, &list).first, 1U) << "r1 was lit before";
 }
 
 TEST(WidgetUse, AMenuWithRowsScrollsAsAListDoes) {
@@ -188,7 +196,7 @@ TEST(WidgetUse, ANumberStepsWithinItsRange) {
   EXPECT_EQ(it.use.value_of(width), 110.0);
   for (int i = 0; i < 30; ++i) it.use.turn_wheel(-1.0);
   EXPECT_EQ(it.use.value_of(width), 10.0);
-  EXPECT_EQ(it.hand.click("Width"), "Width") << "its value again";
+  EXPECT_EQ(it.hand.click_at(field_of(it.use.layout(), width).centre), "Width") << "its value again";
   EXPECT_EQ(it.use.value_of(width), 10.0);
 }
 
@@ -370,14 +378,20 @@ TEST(WidgetUse, OnePageShowsAndItIsTheOneThatWasChosen) {
     UsedElement it(kTabs);
     EXPECT_NE(it.use.layout().widget(it.widget("A")), nullptr);
     EXPECT_EQ(it.use.layout().widget(it.widget("C")), nullptr);
-    if (way == 0) EXPECT_EQ(it.hand.click("P2"), "P2");
-    if (way == 1) EXPECT_EQ(it.hand.push("P2"), "P2");
+    if (way == 0) {
+      EXPECT_EQ(it.hand.click("P2"), "P2");
+    }
+    if (way == 1) {
+      EXPECT_EQ(it.hand.push("P2"), "P2");
+    }
     if (way == 2) {
       it.use.press(ElementKey::Down);
       EXPECT_EQ(it.use.press(ElementKey::Right)->widget->name, "P2");
       EXPECT_EQ(it.use.lit()->name, "P2");
     }
-    if (way == 3) EXPECT_EQ(it.use.choose("P2")->by, ChosenBy::Name);
+    if (way == 3) {
+      EXPECT_EQ(it.use.choose("P2")->by, ChosenBy::Name);
+    }
     EXPECT_EQ(it.use.layout().widget(it.widget("A")), nullptr);
     EXPECT_NE(it.use.layout().widget(it.widget("C")), nullptr);
     EXPECT_EQ(it.use.settings().of(it.widget("Tabs")).chosen->name, "P2");

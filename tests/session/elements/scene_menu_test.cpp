@@ -234,21 +234,21 @@ TEST(SceneMenu, WhatIsFeltFollowsPagesRowsAndHue) {
   using Shape = haptics::PanelTarget::Shape;
   scene.menu.follow(0.0);
   const auto wheel = interaction::wheel_of(*use.layout().widget(widget("Colour")), use.element().text_height);
-  const Vector2 red = wheel.place_of_hue(0.0), blue = wheel.place_of_hue(4.0);
+  const Vector2 red = wheel.place_of_hue(0.0), cyan = wheel.place_of_hue(3.0);
   ASSERT_EQ(targets_at(scene.menu, red).size(), 2U) << "the ring, and the well of its hue";
   EXPECT_EQ(targets_at(scene.menu, red)[0].shape, Shape::Ring);
   EXPECT_GT(targets_at(scene.menu, red)[1].well, 0.0);
-  EXPECT_EQ(targets_at(scene.menu, blue).size(), 1U);
+  EXPECT_EQ(targets_at(scene.menu, cyan).size(), 1U);
   EXPECT_EQ(targets_at(scene.menu, wheel.centre)[1].shape, Shape::Triangle);
-  // The hue is dragged to blue.
+  // Another hue is pushed.
   const auto over = [&](const Vector2& place, double front) {
     return Vector3(kLeaning.in_world(place) + front * kLeaning.size * kLeaning.normal());
   };
-  for (const double front : {0.01, -0.004}) scene.pass({{0, {over(blue, front), false}}});
-  EXPECT_EQ(scene.pass({{0, {over(blue, 0.01), false}}}), "Colour ");
+  for (const double front : {0.01, -0.004}) scene.pass({{0, {over(cyan, front), false}}});
+  EXPECT_EQ(scene.pass({{0, {over(cyan, 0.01), false}}}), "Colour ");
   EXPECT_TRUE(scene.menu.follow(0.1));
   EXPECT_EQ(targets_at(scene.menu, red).size(), 1U);
-  EXPECT_EQ(targets_at(scene.menu, blue).size(), 2U);
+  EXPECT_EQ(targets_at(scene.menu, cyan).size(), 2U);
   EXPECT_FALSE(scene.menu.follow(0.2));
   // Another page, and its rows.
   scene.menu.choose("Rows");
