@@ -11,7 +11,7 @@ namespace {
 
 // In heights of a capital letter.
 constexpr double kRow = 2.4;         // height of a row
-constexpr double kBold = 1.15;       // times as wide are the bold letters of titles
+constexpr double kBold = 1.15;       // times as wide are bold letters, of titles and of what is chosen
 constexpr double kPadding = 0.9;     // from the border to text
 constexpr double kIconRoom = 2.2;    // for a square before the text
 constexpr double kMarkRoom = 2.0;    // for a tick before it
@@ -139,7 +139,9 @@ class Arranger {
   /// The width of a widget that is one row high.
   double width_of(const Widget& widget, const TextRoom& room) const {
     if (widget.kind == WidgetKind::Separator) return 0.0;
-    double width = width_of(text_of(widget, language_)) + 2.0 * kPadding * unit_;
+    const bool may_be_bold = widget.kind == WidgetKind::Row || widget.kind == WidgetKind::Page;
+    const double text = (may_be_bold ? kBold : 1.0) * width_of(text_of(widget, language_));
+    double width = text + 2.0 * kPadding * unit_;
     if (room.marks) width += kMarkRoom * unit_;
     if (room.icons) width += kIconRoom * unit_;
     if (widget.opens_menu()) width += kArrowRoom * unit_;
