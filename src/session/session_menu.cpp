@@ -128,6 +128,8 @@ void SessionParts::use_menu() {
 void SessionParts::tell_menu_choices() {
   for (const MenuChoice& it : std::exchange(menu_chosen, {}))
     for (const auto& listener : menu_listeners) listener(it);
+  for (const std::string& it : std::exchange(menu_troubles, {}))
+    for (const auto& listener : menu_trouble_listeners) listener(it);
 }
 
 base::Result<void> SessionMenu::open(Element element, std::string_view language, const MenuSpot& spot) {
@@ -168,10 +170,14 @@ void SessionMenu::on_choice(std::function<void(const MenuChoice&)> listener) {
   parts_.menu_listeners.push_back(std::move(listener));
 }
 
+void SessionMenu::on_trouble(std::function<void(const std::string&)> listener) {
+  parts_.menu_trouble_listeners.push_back(std::move(listener));
+}
+
 void SessionMenu::set_theme(ElementTheme theme) { parts_.menu_theme = theme; }
 
 bool SessionMenu::point(const interaction::Ray& way, bool button) {
-  if (!met_by(way)) return false;
+  if (!use() || (!parts_.menu.is_held_by_mouse() && !met_by(way))) return false;
   if (auto choice = parts_.menu.point_by_mouse(way, button, menu_seconds()))
     parts_.menu_chosen.push_back(std::move(*choice));
   return true;
@@ -184,6 +190,15 @@ std::optional<Vector3> SessionMenu::met_by(const interaction::Ray& way) const {
 void SessionMenu::press(interaction::ElementKey key) {
   if (!use()) return;
   if (auto choice = parts_.menu.press(key)) parts_.menu_chosen.push_back(std::move(*choice));
+  if (!use()->trouble().empty()) parts_.menu_troubles.push_back(use()->trouble());
+}
+
+bool SessionMenu::type(char letter) { return use() && parts_.menu.type(letter); }
+
+bool SessionMenu::turn_wheel(const interaction::Ray& way, double notches) {
+  if (!met_by(way)) return false;
+  if (auto choice = parts_.menu.turn_wheel(notches)) parts_.menu_chosen.push_back(std::move(*choice));
+  return true;
 }
 
 bool SessionMenu::choose(std::string_view name_or_text) {

@@ -35,6 +35,8 @@ class SessionMenu {
   const interaction::ElementUse* use() const;
   /// Calls `listener` on main, within Session::update(), with each thing that is chosen.
   void on_choice(std::function<void(const MenuChoice&)> listener);
+  /// Calls `listener` likewise with what is wrong with a number that was typed.
+  void on_trouble(std::function<void(const std::string&)> listener);
   void set_theme(ElementTheme theme);
 
   // All of the following are without effect while none is open.
@@ -43,6 +45,10 @@ class SessionMenu {
   /// Where that way meets the menu, m, stage frame.
   std::optional<base::Vector3> met_by(const interaction::Ray& way) const;
   void press(interaction::ElementKey key);
+  /// Types into the number that is lit. False: none is, or the letter is of no number.
+  bool type(char letter);
+  /// Turns the wheel over the menu, > 0 away from the person. False: that way does not meet the menu.
+  bool turn_wheel(const interaction::Ray& way, double notches);
   /// Chooses by a name or a text, as speech does. False: there is none of it that can be chosen.
   bool choose(std::string_view name_or_text);
   /// Enables widgets or not, as `is_enabled` says; nothing: it stays as it is.

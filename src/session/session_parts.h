@@ -233,6 +233,8 @@ struct SessionParts {
   ElementTheme menu_theme = ElementTheme::Light;
   std::vector<MenuChoice> menu_chosen;  // not told yet
   std::deque<std::function<void(const MenuChoice&)>> menu_listeners;
+  std::vector<std::string> menu_troubles;  // not told yet
+  std::deque<std::function<void(const std::string&)>> menu_trouble_listeners;
   realtime::LatestValue<FeltVersion> felt;
   /// FeltVersion::capped, or later than that, as the first pointer has become another one.
   std::shared_ptr<const std::vector<haptics::CappedEffect>> capped = nullptr;

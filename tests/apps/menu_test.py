@@ -156,9 +156,85 @@ class MenuTest(ProgramTest):
         self.assertEqual(dutch["items"][0]["name"], "Red")
         self.fails("menu", colours, "--language", "fr", code=1, saying="it has en, nl")
 
+    def test_lists_scroll_and_their_rows_are_chosen(self):
+        menu = ('[[item]]\nname = "L"\nkind = "list"\nrows = 5\noperation = "create"\nvalue_as = "name"\n'
+                + "".join('[[item.item]]\nname = "r%d"\n' % i for i in range(500)))
+        listed = self.layout(menu)["items"][0]
+        self.assertEqual([it["name"] for it in listed["items"]], ["r%d" % i for i in range(5)])
+        self.assertEqual({key: listed["scroll"][key] for key in ("first", "seen", "count")},
+                         {"first": 0, "seen": 5, "count": 500})
+        top, bottom = listed["scroll"]["less"][1], listed["scroll"]["more"][1]
+        for item in listed["items"]:
+            self.assertLess(item["centre"][1], top + 1e-9)
+            self.assertGreater(item["centre"][1], bottom - 1e-9)
+        more, second = listed["scroll"]["more"], listed["items"][1]["centre"]
+        way = []
+        for place in (more, more, more, second):
+            way += [plus(place, [0, 0, 1], f) for f in (0.01, -0.006, 0.01)]
+        tried = self.tried(menu, path_of(way), "--choose", "push")
+        self.assertEqual(tried["chosen"], ["r4"])
+        self.assertEqual(tried["choices"][0]["value"], "r4")
+        self.assertEqual(tried["pushes"], 4)
+        self.assertLess(tried["max_force_step_n"], 0.5)
+        shown = self.tried(menu, path_of([(0, 0, 1), *way[-3:]]), "--choose", "push", "--show", "r499")
+        self.assertEqual(shown["chosen"], ["r496"])
+        self.fails("menu", self.write("menu.toml", menu), "--show", "r500", code=1, saying="r500")
+
+    def test_numbers_are_pushed_to_more_and_less(self):
+        menu = '[[item]]\nname = "N"\nkind = "number"\nleast = 1\nmost = 9\nvalue = 5\nunit = "mm"\n'
+        item = self.layout(menu)["items"][0]
+        self.assertEqual((item["kind"], item["value"]), ("number", 5))
+        way = []
+        for place in (item["more"], item["less"], item["less"]):
+            way += [plus(place, [0, 0, 1], f) for f in (0.01, -0.006, 0.01)]
+        tried = self.tried(menu, path_of(way), "--choose", "push")
+        self.assertEqual([it["value"] for it in tried["choices"]], [6, 5, 4])
+        held = self.tried(menu, path_of([plus(item["more"], [0, 0, 1], f) for f in (0.05, 0.01, 0.0099)],
+                                        button={1}))
+        self.assertEqual(held["chosen"], ["N"])
+
+    def test_colours_are_taken_from_ring_and_triangle(self):
+        menu = '[[item]]\nname = "C"\nkind = "colour"\nvalue = "#ff0000"\n'
+        wheel = self.layout(menu)["items"][0]["wheel"]
+        centre = wheel["centre"]
+        r = (wheel["inner"] + wheel["outer"]) / 2
+        turned = math.radians(120)  # clockwise from the top: green
+        ring = plus(centre, [math.sin(turned), math.cos(turned), 0], r)
+        full, white, black = wheel["corners"]
+        middle = [(f + w) / 2 for f, w in zip(full, white)]  # half as saturated, full value
+        way = []
+        for place in (ring, middle):
+            way += [plus(place, [0, 0, 1], f) for f in (0.01, -0.006, 0.01)]
+        tried = self.tried(menu, path_of(way), "--choose", "push")
+        self.assertEqual([it["value"] for it in tried["choices"]], ["#00ff00", "#80ff80"])
+        # Dragged from the top of the ring a quarter round: one choice where it is let go.
+        quarter = [plus(centre, [math.sin(math.radians(a)), math.cos(math.radians(a)), 0], r) for a in range(0, 61, 5)]
+        drag = [plus(place, [0, 0, 1], 0.005) for place in (quarter[0], *quarter)]
+        dragged = self.tried(menu, path_of([plus(quarter[0], [0, 0, 1], 0.05), *drag],
+                                           button=set(range(1, len(drag)))))
+        self.assertEqual([it["value"] for it in dragged["choices"]], ["#ffff00"])
+
+    def test_pages_show_one_at_a_time(self):
+        path = MENUS / "properties.toml"
+        tabs = json.loads(self.succeeds("menu", path, "--json").stdout)["items"][0]
+        self.assertEqual([it["name"] for it in tabs["items"]], ["Colour", "Size", "Shapes"])
+        self.assertEqual([it["name"] for it in tabs["items"][1]["items"]], ["Times", "Radius", "Height", "Stiffness"])
+        shapes = tabs["items"][2]["items"][0]
+        self.assertEqual(shapes["items"][0]["name"], "box")
+        header, row = tabs["items"][2]["centre"], shapes["items"][2]["centre"]
+        toml = path.read_text().replace('at = "pointer"\n', "")
+        way = []
+        for place in (row, header, row):
+            way += [plus(place, [0, 0, 1], f) for f in (0.01, -0.006, 0.01)]
+        tried = self.tried(toml, path_of(way), "--choose", "push")
+        self.assertEqual(tried["chosen"][-2:], ["Shapes", "sphere"])
+        self.assertNotIn("sphere", tried["chosen"][:-1])
+
     def test_bad_files_are_told_by_line(self):
         self.fails("menu", self.write("menu.toml", "[[item]]\nname = 3\n"), "--json", code=1,
                    saying="menu.toml:2:8:")
+        self.fails("menu", self.write("menu.toml", '[[item]]\nname = "L"\nkind = "list"\nrows = 4\n'), code=1,
+                   saying="menu.toml:1:1: item 'L': it has no rows")
         self.fails("menu", self.folder / "none.toml", code=1, saying="none.toml")
         path = self.write("p.csv", "t,x,y,z,b\n0,0,0,0,2\n")
         self.fails("menu", MENUS / "clear.toml", "--path", path, code=1,
@@ -212,6 +288,11 @@ class MenuTest(ProgramTest):
         out = self.folder / "menu.png"
         self.succeeds("menu", MENUS / "colours.toml", "--picture", out)
         self.assertEqual(out.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        pictures = set()
+        for page in ("Any colour", "Radius", "polygon"):
+            self.succeeds("menu", MENUS / "properties.toml", "--show", page, "--picture", out)
+            pictures.add(out.read_bytes())
+        self.assertEqual(len(pictures), 3)
 
 
 if __name__ == "__main__":

@@ -97,7 +97,7 @@ std::vector<std::string> study_seeds() {
 
 std::vector<std::string> element_seeds() {
   std::vector<std::string> all;
-  for (const char* name : {"colours", "modelling", "clear"})
+  for (const char* name : {"colours", "modelling", "clear", "properties"})
     all.push_back(text_of(places::project_folder() / "data" / "menus" / (std::string(name) + ".toml")));
   return all;
 }

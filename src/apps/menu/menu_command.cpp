@@ -24,8 +24,10 @@ namespace {
 
 using interaction::Element;
 using interaction::ElementUse;
+using interaction::HandleKind;
 using interaction::LaidWidget;
 using interaction::Widget;
+using interaction::WidgetKind;
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kLongestHeadMotion = 1'000'000'000;  // bytes
@@ -41,14 +43,17 @@ constexpr const char* kMenuNotes =
     "scene (docs/elements.md). The path has a first line t,x,y,z (s, m, world frame), and perhaps a fifth\n"
     "column b, the button: 1 down, 0 up. Without it a click comes where the path ends. Each row is a\n"
     "tick of the servo, with more on the way where rows are over 1 ms apart; forces keep the limits of\n"
-    "the device. With --choose look it is the motion of a head instead, rows t x y z qx qy qz qw (s, m,\n"
-    "a quaternion; the head looks along -z), and what is looked at when it ends is chosen.\n"
+    "the device. What is held where the path ends is let go there. With --choose look it is the motion of\n"
+    "a head instead, rows t x y z qx qy qz qw (s, m, a quaternion; the head looks along -z), and what is\n"
+    "looked at when it ends is chosen.\n"
     "\n"
     "JSON: {file, kind, language, items: [{name, text, kind, centre: [x,y,z], normal: [x,y,z], width,\n"
-    "height, enabled, submenu: null or [items, as they lie when it is open]}]} (m, world frame);\n"
-    "with --path instead {chosen: [names], choices: [{name, by, time_s}], seconds, near_s, pushes, "
-    "max_force_n,\n"
-    "max_force_step_n, tick_us: {median, p99, max}} (tick_us is null with --choose look).";
+    "height, enabled, submenu: null or [items, as they lie when it is open]}]} (m, world frame). A list,\n"
+    "tabs and a page have items: [those in them]; what has a value: value; a number: less and more\n"
+    "[x,y,z]; a colour: wheel {centre, inner, outer, corners: [full, white, black]}; rows that scroll:\n"
+    "scroll {first, seen, count, less, more, bar}.\n"
+    "With --path instead {chosen: [names], choices: [{name, by, time_s, value}], seconds, near_s,\n"
+    "pushes, max_force_n, max_force_step_n, tick_us: {median, p99, max} (null with look)}.";
 
 const char* word_of(interaction::ElementKind kind) {
   switch (kind) {
@@ -80,6 +85,18 @@ const char* word_of(interaction::WidgetKind kind) {
       return "slider";
     case interaction::WidgetKind::Label:
       return "label";
+    case interaction::WidgetKind::Number:
+      return "number";
+    case interaction::WidgetKind::List:
+      return "list";
+    case interaction::WidgetKind::Row:
+      return "row";
+    case interaction::WidgetKind::Colour:
+      return "colour";
+    case interaction::WidgetKind::Tabs:
+      return "tabs";
+    case interaction::WidgetKind::Page:
+      return "page";
     case interaction::WidgetKind::Separator:
       break;
   }
@@ -94,6 +111,8 @@ const char* word_of(interaction::ChosenBy by) {
       return "push";
     case interaction::ChosenBy::Key:
       return "key";
+    case interaction::ChosenBy::Wheel:
+      return "wheel";
     case interaction::ChosenBy::Name:
       return "name";
     case interaction::ChosenBy::Look:
@@ -115,41 +134,118 @@ struct Prepared {
   interaction::TextMeasure measure;
 };
 
-/// The items of one sheet, and below each those of the menu that it opens, as they lie when it is open.
-Json items_of(const Prepared& prepared, const std::vector<const Widget*>& open) {
-  const auto layout = interaction::lay_out(prepared.element, prepared.language, prepared.measure, open);
-  const interaction::ElementFrame frame{prepared.element.centre, prepared.element.turn};
-  Json items = Json::array();
-  for (const LaidWidget& laid : layout.widgets) {
-    const Widget& widget = *laid.widget;
-    if (laid.sheet + 1 != layout.sheets.size() || !widget.can_be_chosen()) continue;
-    const auto& sphere = layout.sheets[laid.sheet].sphere;
-    const base::Pose lying = sphere ? frame.world_from_element() * sphere->tile_at(laid.centre, {0.0, 0.0})
-                                    : interaction::world_from_sheet(frame, {nullptr, laid.centre});
+Json json_of(const interaction::Value& value) { return Json::parse(interaction::json_from_value(value)); }
+
+/// An element with some of its menus and pages open.
+class OpenElement {
+ public:
+  OpenElement(const Prepared& prepared, std::vector<const Widget*> open, interaction::ShownParts shown)
+      : prepared_(prepared),
+        open_(std::move(open)),
+        shown_(std::move(shown)),
+        layout_(interaction::lay_out(prepared.element, prepared.language, prepared.measure, open_, shown_)),
+        settings_(prepared.element) {}
+
+  /// Those of the widgets that show, and in each those of the menu or page that it opens, as they lie then.
+  Json items(const std::vector<Widget>& widgets) const {
+    Json items = Json::array();
+    for (const Widget& widget : widgets) {
+      const bool holds = widget.kind == WidgetKind::List || widget.kind == WidgetKind::Tabs;
+      const LaidWidget* const laid = layout_.widget(widget);
+      if (!holds && (laid == nullptr || !widget.can_be_chosen())) continue;
+      Json item = holds ? item_at(widget, frame_of(widget)) : item_at(widget, {laid->centre, laid->half});
+      if (holds) item["items"] = this->items(widget.widgets);
+      add_parts(widget, item);
+      items.push_back(std::move(item));
+    }
+    return items;
+  }
+
+  /// The rows that show; null: all do.
+  Json scroll(const Widget* of) const {
+    const interaction::LaidColumn* const column = layout_.column(of);
+    if (column == nullptr) return nullptr;
+    return {{"first", column->first},
+            {"seen", column->seen},
+            {"count", column->count},
+            {"less", handle(HandleKind::Less, of)},
+            {"more", handle(HandleKind::More, of)},
+            {"bar", handle(HandleKind::Bar, of)}};
+  }
+
+ private:
+  interaction::ElementFrame frame() const { return {prepared_.element.centre, prepared_.element.turn}; }
+  Json place(const base::Vector2& at) const { return place_json(frame().in_world(at)); }
+  Json handle(HandleKind kind, const Widget* of) const { return place(layout_.handle(kind, of)->box.centre); }
+
+  interaction::LaidBox frame_of(const Widget& widget) const {
+    const auto found = std::ranges::find(layout_.frames, &widget, &interaction::LaidFrame::of);
+    return found == layout_.frames.end() ? interaction::LaidBox() : found->box;
+  }
+
+  /// The place of a widget in the world, z out of its front: in the plane, or on the sphere at rest.
+  base::Pose pose_of(const Widget& widget, const interaction::LaidBox& box) const {
+    const LaidWidget* const laid = layout_.widget(widget);
+    const auto sphere = laid != nullptr ? layout_.sheets[laid->sheet].sphere : std::nullopt;
+    return sphere ? frame().world_from_element() * sphere->tile_at(box.centre, {0.0, 0.0})
+                  : interaction::world_from_sheet(frame(), {nullptr, box.centre});
+  }
+
+  Json item_at(const Widget& widget, const interaction::LaidBox& box) const {
+    const std::size_t language = prepared_.language;
     Json item{{"name", widget.name},
-              {"text", laid.lines.front()},
+              {"text", language < widget.text.size() ? widget.text[language] : widget.name},
               {"kind", word_of(widget.kind)},
               {"centre", place_json(lying.translation())},
               {"normal", place_json(lying.linear().col(2))},
-              {"width", 2.0 * laid.half.x()},
-              {"height", 2.0 * laid.half.y()},
+              {"width", 2.0 * box.half.x()},
+              {"height", 2.0 * box.half.y()},
               {"enabled", widget.enabled},
               {"submenu", nullptr}};
-    if (!widget.widgets.empty()) {
-      std::vector<const Widget*> deeper = open;
-      deeper.push_back(&widget);
-      item["submenu"] = items_of(prepared, deeper);
-    }
-    items.push_back(std::move(item));
+    return item;
   }
-  return items;
-}
+
+  void add_parts(const Widget& widget, Json& item) const {
+    const bool is_one_of_several = widget.kind == WidgetKind::Row || widget.kind == WidgetKind::Page;
+    if (const interaction::Value value = settings_.value_of(widget); !value.is_null() && !is_one_of_several)
+      item["value"] = json_of(value);
+    if (widget.opens_menu()) {
+      std::vector<const Widget*> deeper = open_;
+      deeper.push_back(&widget);
+      const OpenElement opened(prepared_, std::move(deeper), shown_);
+      item["submenu"] = opened.items(widget.widgets);
+      if (Json scroll = opened.scroll(&widget); !scroll.is_null()) item["scroll"] = std::move(scroll);
+    } else if (widget.kind == WidgetKind::Page) {
+      interaction::ShownParts shown = shown_;
+      shown.pages[settings_.of(widget).parent] = &widget;
+      item["items"] = OpenElement(prepared_, open_, std::move(shown)).items(widget.widgets);
+    } else if (widget.kind == WidgetKind::List) {
+      item["scroll"] = scroll(&widget);
+    } else if (widget.kind == WidgetKind::Number) {
+      item["less"] = handle(HandleKind::Less, &widget);
+      item["more"] = handle(HandleKind::More, &widget);
+    } else if (widget.kind == WidgetKind::Colour) {
+      const auto wheel = interaction::wheel_of(*layout_.widget(widget), prepared_.element.text_height);
+      item["wheel"] = {{"centre", place(wheel.centre)}, {"inner", wheel.inner}, {"outer", wheel.outer}};
+      for (const base::Vector2& corner : wheel.corners()) item["wheel"]["corners"].push_back(place(corner));
+    }
+  }
+
+  const Prepared& prepared_;
+  std::vector<const Widget*> open_;
+  interaction::ShownParts shown_;
+  interaction::ElementLayout layout_;
+  interaction::ElementSettings settings_;
+};
 
 std::string layout_json(const Prepared& prepared, const MenuOptions& options) {
-  return menu_json_text({{"file", options.file.string()},
-                         {"kind", word_of(prepared.element.kind)},
-                         {"language", prepared.element.languages[prepared.language]},
-                         {"items", items_of(prepared, {})}});
+  const OpenElement laid(prepared, {}, {});
+  Json json{{"file", options.file.string()},
+            {"kind", word_of(prepared.element.kind)},
+            {"language", prepared.element.languages[prepared.language]},
+            {"items", laid.items(prepared.element.widgets)}};
+  if (Json scroll = laid.scroll(nullptr); !scroll.is_null()) json["scroll"] = std::move(scroll);
+  return menu_json_text(json);
 }
 
 void append_rows(const Json& items, const std::string& indent, std::string& text) {
@@ -162,6 +258,7 @@ void append_rows(const Json& items, const std::string& indent, std::string& text
                     1000.0 * centre[2].get<double>(), 1000.0 * item["width"].get<double>(),
                     1000.0 * item["height"].get<double>(), item["enabled"].get<bool>() ? "" : "  disabled");
     if (!item["submenu"].is_null()) append_rows(item["submenu"], indent + "  ", text);
+    if (item.contains("items")) append_rows(item["items"], indent + "  ", text);
   }
 }
 
@@ -170,7 +267,7 @@ std::string layout_text(const Prepared& prepared, const MenuOptions& options) {
       fmt::format("{}: a {}, turned by {:.4g} degrees; mm, world frame\n", options.file.string(),
                   word_of(prepared.element.kind), prepared.element.turn * 180.0 / std::numbers::pi);
   text += fmt::format("  {:<28}{:>8}{:>8}{:>8}{:>14}\n", "item", "x", "y", "z", "size");
-  append_rows(items_of(prepared, {}), "", text);
+  append_rows(OpenElement(prepared, {}, {}).items(prepared.element.widgets), "", text);
   return text;
 }
 
@@ -182,7 +279,10 @@ std::string trial_json(const MenuTrial& trial) {
   Json names = Json::array(), choices = Json::array();
   for (const MenuChoice& choice : trial.chosen) {
     names.push_back(choice.name);
-    choices.push_back({{"name", choice.name}, {"by", word_of(choice.by)}, {"time_s", choice.time}});
+    choices.push_back({{"name", choice.name},
+                       {"by", word_of(choice.by)},
+                       {"time_s", choice.time},
+                       {"value", json_of(choice.value)}});
   }
   Json ticks = nullptr;
   if (!trial.tick_us.empty())
@@ -203,8 +303,10 @@ std::string trial_text(const MenuTrial& trial) {
   std::string text =
       fmt::format("{:.4g} s, {:.4g} of them near the element, pushed in {} time{}\n", trial.seconds,
                   trial.near_seconds, trial.pushes, trial.pushes == 1 ? "" : "s");
-  for (const MenuChoice& choice : trial.chosen)
-    text += fmt::format("  {:.3f} s: {} (by {})\n", choice.time, choice.name, word_of(choice.by));
+  for (const MenuChoice& choice : trial.chosen) {
+    const std::string value = choice.value.is_null() ? "" : ": " + interaction::json_from_value(choice.value);
+    text += fmt::format("  {:.3f} s: {}{} (by {})\n", choice.time, choice.name, value, word_of(choice.by));
+  }
   if (trial.chosen.empty()) text += "  nothing was chosen\n";
   if (trial.tick_us.empty()) return text;
   return text + fmt::format(
@@ -272,6 +374,9 @@ base::Result<std::string> answer_of(Prepared& prepared, const MenuOptions& optio
   prepared.element.choosing.by_push = !options.path || options.choose == "push";
   prepared.element.choosing.by_look = options.path && options.choose == "look";
   ElementUse use(prepared.element, prepared.language, prepared.measure);
+  if (!options.show.empty() && !use.show(options.show))
+    return base::fail(
+        fmt::format("{} has no item \"{}\" that can be shown.", options.file.string(), options.show));
   if (options.picture)
     if (const auto written = write_picture(use, options, status); !written)
       return tl::unexpected(written.error());
@@ -304,6 +409,8 @@ void add_menu(CLI::App& app, MenuOptions& options) {
       ->check(CLI::IsMember({"light", "dark", "contrast"}))
       ->type_name("LOOK")
       ->needs(picture);
+  menu.add_option("--show", options.show, "Bring this item into sight first: its page, its menu, its row")
+      ->type_name("NAME");
   menu.add_flag("--json", options.json, "Print the answer as JSON (fields below)");
 }
 

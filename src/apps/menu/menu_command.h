@@ -19,6 +19,7 @@ struct MenuOptions {
   std::optional<std::filesystem::path> picture;
   std::optional<std::filesystem::path> design;  // drawn behind it
   std::string theme = "light";
+  std::string show = {};  // an item that is brought into sight first; empty: none
   bool json = false;
 };
 

@@ -41,12 +41,16 @@ std::optional<MenuTrial> try_element(ElementUse& use, devices::PathPlayer& path)
     trial.max_force_step = std::max(trial.max_force_step, (report.force - last_force).norm());
     last_force = report.force;
     trial.tick_us.push_back(double(report.own_ns()) / 1000.0);
-    const auto point = [&](bool button) {
-      if (const auto choice = use.point({times[row], report.tip, button}))
-        trial.chosen.push_back({choice->widget->name, choice->by, times[row]});
+    const auto keep = [&](const std::optional<interaction::Choice>& choice) {
+      if (!choice) return;
+      const interaction::Widget& widget = *choice->widget;
+      trial.chosen.push_back({widget.name, choice->by, times[row], use.settings().value_of(widget)});
     };
-    point((report.buttons & 1U) != 0);
-    if (!path.has_button() && row + 1 == times.size()) point(true);
+    keep(use.point({times[row], report.tip, (report.buttons & 1U) != 0}));
+    if (row + 1 == times.size()) {
+      if (!path.has_button()) keep(use.point({times[row], report.tip, true}));
+      keep(use.change_pointer());
+    }
     if (sheets.follow(&use, times[row])) servo.publish_effects(sheets.effects());
   }
   trial.near_seconds = use.near_seconds();

@@ -14,7 +14,8 @@ namespace icome::apps {
 struct MenuChoice {
   std::string name;
   interaction::ChosenBy by = interaction::ChosenBy::Click;
-  double time = 0.0;  // s, of the path
+  double time = 0.0;              // s, of the path
+  interaction::Value value = {};  // that it tells; null: none
 };
 
 /// What came of an element that a path was tried on.
@@ -33,7 +34,7 @@ struct MenuTrial {
 MenuTrial look_at_element(interaction::ElementUse& use, const std::vector<devices::HeadSample>& motion);
 
 /// Moves the tip along the path, a row a tick, through the servo with its limiter. A path without a button
-/// clicks where it ends. Nothing where it was interrupted.
+/// clicks where it ends, and what is held there is let go. Nothing where it was interrupted.
 std::optional<MenuTrial> try_element(interaction::ElementUse& use, devices::PathPlayer& path);
 
 }  // namespace icome::apps

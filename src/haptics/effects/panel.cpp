@@ -62,22 +62,87 @@ Field rings(const Vector2& offset, double spacing) {
   return {0.5 * (1.0 - std::cos(wave * r)), offset * (0.5 * wave * std::sin(wave * r) / r)};
 }
 
+/// Half of the ring's width, and the radius of its middle.
+struct Band {
+  double half, middle;
+};
+
+Band band_of(const PanelTarget& ring) {
+  return {0.5 * (ring.half.x() - ring.inner), 0.5 * (ring.half.x() + ring.inner)};
+}
+
+/// Half of the width of a target where it is narrowest: of a triangle the radius of the circle in it.
+double half_width(const PanelTarget& target) {
+  switch (target.shape) {
+    case PanelTarget::Shape::Ring:
+      return band_of(target).half;
+    case PanelTarget::Shape::Triangle:
+      return 0.5 * target.half.x();
+    case PanelTarget::Shape::Rectangle:
+      break;
+  }
+  return target.half.minCoeff();
+}
+
+/// 1 in a ring but for `inset` at both of its borders, 0 beyond.
+Field ring_field(const Vector2& offset, const Band& band, double inset, double flank) {
+  const double r = offset.norm(), away = r - band.middle;
+  if (r <= 0.0) return {};
+  const Step across = step((band.half - inset - std::abs(away)) / flank);
+  return {across.value, offset * (-std::copysign(across.slope / flank, away) / r)};
+}
+
+/// 1 in an equilateral triangle but for `inset` at its borders, 0 beyond: the product of a step at each side.
+Field triangle_field(const Vector2& offset, double circle, double inset, double flank) {
+  const double aside = std::sqrt(0.75);
+  Field field{1.0, Vector2::Zero()};
+  for (const Vector2& out : {Vector2(0.0, -1.0), Vector2(aside, 0.5), Vector2(-aside, 0.5)}) {
+    const Step side = step((circle - inset - out.dot(offset)) / flank);
+    field.slope = field.slope * side.value - field.value * side.slope / flank * out;
+    field.value *= side.value;
+  }
+  return field;
+}
+
+/// 1 in a target but for `inset` at its border, 0 beyond.
+Field inside_of(const PanelTarget& target, const Vector2& offset, double inset, double flank) {
+  switch (target.shape) {
+    case PanelTarget::Shape::Ring:
+      return ring_field(offset, band_of(target), inset, flank);
+    case PanelTarget::Shape::Triangle:
+      return triangle_field(offset, half_width(target), inset, flank);
+    case PanelTarget::Shape::Rectangle:
+      break;
+  }
+  return box(offset, target.half - Vector2::Constant(inset), flank);
+}
+
+/// The shape of a well: 1 in the middle of the target, 0 from its border on.
+Field well_of(const PanelTarget& target, const Vector2& offset) {
+  if (target.shape == PanelTarget::Shape::Triangle) return {};
+  if (target.shape == PanelTarget::Shape::Rectangle) return bowl(offset, target.half);
+  const auto [half, middle] = band_of(target);
+  const double r = offset.norm(), q = (r - middle) / half, x = 1.0 - q * q;
+  if (x <= 0.0 || r <= 0.0) return {};
+  return {x * x * x, offset * (-6.0 * q / half * x * x / r)};
+}
+
 /// Wider where the target rises or falls by more, so that a hand does not catch on it.
 double flank_of(const PanelTarget& target) {
   const double rise = std::abs(target.recess) + std::abs(target.ridge);
-  return std::min(std::max(kFlank, kFlankARise * rise), 0.5 * target.half.minCoeff());
+  return std::min(std::max(kFlank, kFlankARise * rise), 0.5 * half_width(target));
 }
 
 /// The energy of a well whose strongest pull across its shorter side is `newtons`: (1 - q^2)^3 is steepest at
 /// q = 1/sqrt(5), where it falls by 1.717 over the half width.
 double well_energy(const PanelTarget& target) {
   const double steepest = 6.0 / std::sqrt(5.0) * 0.64;
-  return target.well * target.half.minCoeff() / steepest;
+  return target.well * half_width(target) / steepest;
 }
 
 /// The stiffness of a well at its middle, N/m.
 double well_stiffness(const PanelTarget& target) {
-  return 6.0 * well_energy(target) / std::pow(target.half.minCoeff(), 2);
+  return 6.0 * well_energy(target) / std::pow(half_width(target), 2);
 }
 
 /// The steepest slope of a target's relief, and its tightest bend, 1/m.
@@ -88,11 +153,16 @@ struct Steepness {
 Steepness steepness(const PanelTarget& target) {
   const double rise = std::abs(target.recess) + std::abs(target.ridge), flank = flank_of(target);
   const double wave = 2.0 * std::numbers::pi / target.ring_spacing;
-  return {1.5 * rise / flank + 0.5 * std::abs(target.rings) * wave,
-          6.0 * rise / (flank * flank) + 0.5 * std::abs(target.rings) * wave * wave};
+  double slope = 1.5 * rise / flank, bend = 6.0 * rise / (flank * flank);
+  if (target.shape == PanelTarget::Shape::Ring) bend += slope / target.inner;
+  return {slope + 0.5 * std::abs(target.rings) * wave, bend + 0.5 * std::abs(target.rings) * wave * wave};
 }
 
 [[maybe_unused]] bool is_sound(const PanelTarget& target) {
+  const bool is_ring = target.shape == PanelTarget::Shape::Ring;
+  if (is_ring && !(target.inner > 0.0 && target.inner < target.half.x())) return false;
+  if (target.shape == PanelTarget::Shape::Triangle && target.well != 0.0) return false;
+  if (target.shape != PanelTarget::Shape::Rectangle && target.half.x() != target.half.y()) return false;
   return target.half.minCoeff() > 0.0 && target.well >= 0.0 && target.ring_spacing > 0.0 &&
          target.friction >= 0.0 && target.detent >= 0.0;
 }
@@ -172,8 +242,8 @@ Panel::Ground Panel::ground_at(const Vector2& place) const {
     const Vector2 offset = place - target.centre;
     if ((offset.cwiseAbs().array() >= target.half.array()).any()) continue;
     const double flank = flank_of(target);
-    const Field inside = box(offset, target.half, flank);
-    const Field rim = inside - box(offset, target.half - Vector2::Constant(flank), flank);
+    const Field inside = inside_of(target, offset, 0.0, flank);
+    const Field rim = inside - inside_of(target, offset, flank, flank);
     const Field ring = rings(offset, target.ring_spacing);
     ground.height += target.ridge * rim.value + (target.rings * ring.value - target.recess) * inside.value;
     ground.slope += target.ridge * rim.slope + (target.rings * ring.value - target.recess) * inside.slope +
@@ -182,7 +252,7 @@ Panel::Ground Panel::ground_at(const Vector2& place) const {
     ground.detent_slope += target.detent * inside.slope;
     if (target.detent > 0.0) ground.push_depth = target.push_depth;
     ground.friction += target.friction * inside.value;
-    const Field well = bowl(offset, target.half);
+    const Field well = well_of(target, offset);
     const double energy = well_energy(target);
     ground.well += energy * well.value;
     ground.well_slope += energy * well.slope;

@@ -15,20 +15,31 @@ namespace icome::haptics {
 
 using base::Vector2;
 
-/// The feel of a widget: a rectangle of a panel. Lengths in the panel's plane, x to the right, y up. The four
+/// The feel of a widget: a rectangle of a panel, or the ring or triangle of a picker of colours. Lengths in
+/// the panel's plane, x to the right, y up. The four
 /// effects that Oakley et al. (2000) tried on buttons (thesis 4.4.2), each absent where it is 0, the ridge of
 /// Miller's windows (4.4.1) and the click of a push.
 struct PanelTarget {
+  enum class Shape : std::uint8_t {
+    Rectangle,
+    Ring,     // round the centre, from `inner` to half.x()
+    Triangle  // equilateral, its corners half.x() from the centre, one straight up
+  };
+
+  Shape shape = Shape::Rectangle;
+  double inner = 0.0;                // m, of a Ring, > 0 and < half.x()
   Vector2 centre = Vector2::Zero();  // m
   Vector2 half = Vector2::Zero();    // m, half its width and height, > 0
-  double well = 0.0;                 // N, the strongest pull across its shorter side; usually 0.2 to 1
-  double recess = 0.0;               // m, depth of its floor; usually 0.0005 to 0.002; negative: raised
-  double ridge = 0.0;                // m, height of a ridge along its border; negative: a groove
-  double rings = 0.0;                // m, height of concentric ridges; usually 0.0002 to 0.0005
-  double ring_spacing = 0.002;       // m, > 0
-  double friction = 0.0;             // coefficient, on top of the panel's; usually 0.2 to 0.8
-  double detent = 0.0;               // N, by which the force falls at push_depth; at most 0.5
-  double push_depth = 0.003;         // m, > 0, below its floor
+  /// N, the strongest pull across its shorter side; usually 0.2 to 1. Of a Ring it is towards the circle in
+  /// its middle; a Triangle has none.
+  double well = 0.0;
+  double recess = 0.0;          // m, depth of its floor; usually 0.0005 to 0.002; negative: raised
+  double ridge = 0.0;           // m, height of a ridge along its border; negative: a groove
+  double rings = 0.0;           // m, height of concentric ridges; usually 0.0002 to 0.0005
+  double ring_spacing = 0.002;  // m, > 0
+  double friction = 0.0;        // coefficient, on top of the panel's; usually 0.2 to 0.8
+  double detent = 0.0;          // N, by which the force falls at push_depth; at most 0.5
+  double push_depth = 0.003;    // m, > 0, below its floor
 };
 
 struct PanelSettings {

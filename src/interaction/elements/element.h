@@ -6,6 +6,7 @@
 #include "haptics/effects/panel.h"
 #include "interaction/operations/value.h"
 #include "io/key_reader.h"
+#include "world/shape/fixture.h"
 
 namespace icome::interaction {
 
@@ -25,7 +26,13 @@ enum class WidgetKind : std::uint8_t {
   Radio,  // one of a group
   Slider,
   Label,  // words
-  Separator
+  Separator,
+  Number,  // a field with a target to each side that makes it less or more
+  List,    // rows that show in place, and scroll
+  Row,     // of a List
+  Colour,  // a ring of hues round a triangle of shades
+  Tabs,    // pages, of which one shows
+  Page     // of Tabs
 };
 
 /// The frame in which an element rests.
@@ -57,17 +64,28 @@ struct Widget {
   bool enabled = true;
   bool checked = false;            // of Check and Radio
   std::string group = {};          // of Radio
-  double least = 0.0, most = 1.0;  // of Slider
-  double step = 0.0, value = 0.0;  // of Slider; step 0: any
+  double least = 0.0, most = 1.0;  // of Slider and Number
+  double step = 0.0, value = 0.0;  // of Slider and Number; step 0 of a Slider: any
   std::string operation = {};      // of `icome edit`; empty: the name is all that is told
   Value::Fields with = {};         // its arguments
   std::string command = {};        // of the window instead, such as "view.home"
   bool is_default = false;         // of a dialog: what Enter chooses
   bool is_cancel = false;          // of a dialog: what Escape chooses
   WidgetFeel feel = {};
-  std::vector<Widget> widgets = {};  // of Item: opens as a menu beside it
+  /// Of Item: opens as a menu beside it. Rows of a List, pages of Tabs, and what is on a Page.
+  std::vector<Widget> widgets = {};
+  std::string unit = {};                      // of Number, behind its value
+  world::Colour colour = {1.0F, 1.0F, 1.0F};  // of Colour
+  std::string chosen = {};                    // name of a List's row or of the page that shows first
+  std::uint32_t rows = 0;                     // of List and of an Item's menu: seen at once; 0: all
+  std::string value_as = {};                  // argument of the operation that takes its value
+  double value_times = 1.0;                   // of Slider and Number: by which that is multiplied
 
-  bool can_be_chosen() const { return kind != WidgetKind::Label && kind != WidgetKind::Separator; }
+  bool can_be_chosen() const {
+    return kind != WidgetKind::Label && kind != WidgetKind::Separator && kind != WidgetKind::List &&
+           kind != WidgetKind::Tabs;
+  }
+  bool opens_menu() const { return kind == WidgetKind::Item && !widgets.empty(); }
 };
 
 /// The ways of choosing with the pointer (thesis 6.6.1).
@@ -109,6 +127,7 @@ struct Element {
   double turn = 0.0;                             // rad, alpha of thesis 5.7.2
   double text_height = 0.004;                    // m, of a capital letter
   std::uint32_t columns = 0;                     // of a toolbar; 0: all in one row
+  std::uint32_t rows = 0;                        // of a menu: seen at once, the others scroll; 0: all
   double width = 0.12;                           // m, at which words of a dialog are broken
   double radius = 0.0;                           // m, of a daisy's sphere, at least
   double cone = 0.454;                           // rad, half the angle of a daisy's cone

@@ -4,6 +4,7 @@
 #include "haptics/effects/panel.h"
 #include "interaction/elements/element_frame.h"
 #include "interaction/elements/element_layout.h"
+#include "interaction/elements/element_settings.h"
 
 namespace icome::interaction {
 
@@ -19,8 +20,8 @@ base::Pose world_from_sheet(const ElementFrame& frame, const LaidSheet& sheet);
 /// The ground of the element's sheets, without size or targets.
 haptics::PanelSettings ground_of(const Element& element);
 
-/// What is felt of an element: a panel for each sheet, the element's own first.
-std::vector<FeltSheet> feel_of(const Element& element, const ElementLayout& layout,
-                               const ElementFrame& frame);
+/// What is felt of an element, as it is set: a panel for each sheet, the element's own first.
+std::vector<FeltSheet> feel_of(const Element& element, const ElementLayout& layout, const ElementFrame& frame,
+                               const ElementSettings& settings);
 
 }  // namespace icome::interaction

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <set>
 
 #include "base/near_names.h"
+#include "interaction/elements/colour_wheel.h"
 #include "interaction/operations/looks/colour_names.h"
 #include "interaction/operations/operation.h"
 #include "interaction/operations/toml_value.h"
@@ -20,15 +22,19 @@ using io::Problems;
 using io::TomlNode;
 using io::Words;
 
+constexpr int kFewestRows = 3, kMostRows = 100;     // that are seen at once
+constexpr int kUsualRows = 6;                       // of a list
 constexpr double kFarthestCentre = 1000.0;          // m
 constexpr std::uint64_t kLongestFile = 10'000'000;  // bytes
 
 const Words<ElementKind> kKinds = {{"menu", ElementKind::Menu},     {"toolbar", ElementKind::Toolbar},
                                    {"dialog", ElementKind::Dialog}, {"ring", ElementKind::Ring},
                                    {"pie", ElementKind::Pie},       {"daisy", ElementKind::Daisy}};
-const Words<WidgetKind> kWidgetKinds = {{"item", WidgetKind::Item},   {"check", WidgetKind::Check},
-                                        {"radio", WidgetKind::Radio}, {"slider", WidgetKind::Slider},
-                                        {"label", WidgetKind::Label}, {"separator", WidgetKind::Separator}};
+const Words<WidgetKind> kWidgetKinds = {
+    {"item", WidgetKind::Item},    {"button", WidgetKind::Item},         {"check", WidgetKind::Check},
+    {"toggle", WidgetKind::Check}, {"radio", WidgetKind::Radio},         {"slider", WidgetKind::Slider},
+    {"label", WidgetKind::Label},  {"separator", WidgetKind::Separator}, {"number", WidgetKind::Number},
+    {"list", WidgetKind::List},    {"colour", WidgetKind::Colour},       {"tabs", WidgetKind::Tabs}};
 const Words<ElementPlace> kPlaces = {{"world", ElementPlace::World},
                                      {"head", ElementPlace::Head},
                                      {"hand", ElementPlace::Hand},
@@ -48,6 +54,7 @@ class ElementReader {
     read_groups(keys, element);
     const WidgetFeel feel = read_feel(keys, WidgetFeel());
     element.widgets = read_widgets(keys, "item", element.languages, feel, 1);
+    check_places(element);
     check_only_one(element.widgets, keys.place());
     check_daisy(element, keys.place());
     if (element.widgets.empty() && problems_.none())
@@ -77,6 +84,9 @@ class ElementReader {
     element.title = keys.text("title", false);
     element.text_height = keys.number("text_m", element.text_height, 0.0005, 1.0);
     element.columns = std::uint32_t(keys.whole("columns", 0, 0, 100));
+    element.rows = std::uint32_t(keys.whole("rows", 0, kFewestRows, kMostRows));
+    if (element.rows > 0 && element.kind != ElementKind::Menu)
+      problems_.add(keys.place_of("rows"), "the element: only a menu has rows.");
     element.width = keys.number("width_m", element.width, 0.01, 10.0);
     element.radius = keys.number("radius_m", element.radius, 0.0, 10.0);
     element.cone = keys.number("cone_deg", 26.0, 1.0, 90.0) * std::numbers::pi / 180.0;
@@ -176,31 +186,126 @@ class ElementReader {
     widget.kind = keys.word("kind", kWidgetKinds, WidgetKind::Item);
     widget.name = keys.plain("name");
     widget.text = keys.text("text", false);
-    if (widget.text.empty()) widget.text.assign(languages.size(), widget.name);
+    if (widget.text.empty() && widget.kind != WidgetKind::List)
+      widget.text.assign(languages.size(), widget.name);
     check_name(keys, widget);
     widget.icon = keys.plain("icon");
-    if (!widget.icon.empty())
-      if (const auto colour = colour_from_text(widget.icon); !colour)
-        problems_.add(keys.place_of("icon"),
-                      fmt::format("item '{}': {}", widget.name, colour.error().message));
+    check_colour(keys, "icon", widget.icon, widget);
     widget.enabled = keys.flag("enabled", true);
     widget.checked = keys.flag("checked", false);
     widget.group = keys.plain("group");
     widget.is_default = keys.flag("default", false);
     widget.is_cancel = keys.flag("cancel", false);
-    if (widget.kind == WidgetKind::Slider) read_slider(keys, widget);
     widget.feel = read_feel(keys, feel);
+    widget.widgets = read_widgets(keys, "item", languages, widget.feel, depth + 1);
+    places_[widget.name] = keys.place();
+    read_kind(keys, widget);
     read_operation(keys, widget);
-    widget.widgets = read_widgets(keys, "item", languages, feel, depth + 1);
-    if (!widget.widgets.empty() && widget.kind != WidgetKind::Item)
-      problems_.add(keys.place(),
-                    fmt::format("item '{}': only an item of kind \"item\" opens a menu.", widget.name));
     keys.finish();
     return widget;
   }
 
+  /// The keys that only some kinds have.
+  void read_kind(KeyReader& keys, Widget& widget) {
+    switch (widget.kind) {
+      case WidgetKind::Slider:
+      case WidgetKind::Number:
+        read_range(keys, widget);
+        break;
+      case WidgetKind::Colour: {
+        const std::string value = keys.plain("value");
+        check_colour(keys, "value", value, widget);
+        if (const auto colour = colour_from_text(value); colour) widget.colour = *colour;
+        break;
+      }
+      case WidgetKind::List:
+        read_rows(keys, widget, kUsualRows);
+        make_all(keys, widget, WidgetKind::Row, "row");
+        read_chosen(keys, widget);
+        break;
+      case WidgetKind::Tabs:
+        make_all(keys, widget, WidgetKind::Page, "page");
+        read_chosen(keys, widget);
+        break;
+      default:
+        read_rows(keys, widget, 0);
+    }
+    const bool holds =
+        widget.kind == WidgetKind::Item || widget.kind == WidgetKind::List || widget.kind == WidgetKind::Tabs;
+    if (!widget.widgets.empty() && !holds)
+      problems_.add(keys.place(),
+                    fmt::format("item '{}': only an item of kind \"item\", \"list\" or \"tabs\" "
+                                "has items in it.",
+                                widget.name));
+  }
+
+  void read_rows(KeyReader& keys, Widget& widget, int otherwise) {
+    widget.rows = std::uint32_t(keys.whole("rows", otherwise, kFewestRows, kMostRows));
+    if (keys.has("rows") && widget.kind != WidgetKind::List && widget.widgets.empty())
+      problems_.add(
+          keys.place_of("rows"),
+          fmt::format("item '{}': rows are of a list, or of an item that opens a menu.", widget.name));
+  }
+
+  /// Makes all that is in a list rows, and all that is in tabs pages.
+  void make_all(KeyReader& keys, Widget& widget, WidgetKind kind, const char* word) {
+    if (widget.widgets.empty())
+      problems_.add(keys.place(), fmt::format("item '{}': it has no {}s; write [[item.item]] below it.",
+                                              widget.name, word));
+    const TomlNode* const items = keys.value("item");
+    for (std::size_t i = 0; i < widget.widgets.size(); ++i) {
+      Widget& it = widget.widgets[i];
+      const io::Place place = items->elements[i].place;
+      if (it.kind != WidgetKind::Item || (kind == WidgetKind::Row && !it.widgets.empty()))
+        problems_.add(place, fmt::format("item '{}': a {} is an item of no other kind{}.", it.name, word,
+                                         kind == WidgetKind::Row ? " and opens no menu" : ""));
+      if (kind == WidgetKind::Page && it.widgets.empty())
+        problems_.add(place, fmt::format("item '{}': the page is empty.", it.name));
+      it.kind = kind;
+    }
+  }
+
+  /// The name of the row or page that is chosen at first.
+  void read_chosen(KeyReader& keys, Widget& widget) {
+    widget.chosen = keys.plain("value");
+    std::vector<std::string> names;
+    for (const Widget& it : widget.widgets) names.push_back(it.name);
+    if (!widget.chosen.empty() && std::ranges::find(names, widget.chosen) == names.end())
+      problems_.add(keys.place_of("value"),
+                    fmt::format("item '{}': it has no '{}'{}", widget.name, widget.chosen,
+                                base::suggestion(widget.chosen, names)));
+  }
+
+  void check_colour(KeyReader& keys, const std::string& key, const std::string& said, const Widget& widget) {
+    if (said.empty()) return;
+    if (const auto colour = colour_from_text(said); !colour)
+      problems_.add(keys.place_of(key), fmt::format("item '{}': {}", widget.name, colour.error().message));
+  }
+
+  static bool is_high(const Widget& widget) {
+    return widget.kind == WidgetKind::List || widget.kind == WidgetKind::Tabs ||
+           widget.kind == WidgetKind::Colour;
+  }
+
+  /// Lists, tabs and pickers of colours lie in menus, dialogs and pages, and not among rows that scroll.
+  void check_places(const Element& element) {
+    const bool is_column = element.kind == ElementKind::Menu || element.kind == ElementKind::Dialog;
+    check_places(element.widgets, element.rows > 0, is_column);
+  }
+
+  void check_places(const std::vector<Widget>& widgets, bool scrolls, bool is_column) {
+    for (const Widget& widget : widgets) {
+      if (is_high(widget) && (scrolls || !is_column))
+        problems_.add(places_[widget.name],
+                      fmt::format("item '{}': lists, tabs and pickers of colours lie {}.", widget.name,
+                                  scrolls ? "in no menu with rows" : "in menus, dialogs and pages"));
+      check_places(widget.widgets, widget.kind == WidgetKind::Item && widget.rows > 0, true);
+    }
+  }
+
   void check_name(KeyReader& keys, const Widget& widget) {
-    if (!widget.can_be_chosen() && widget.name.empty()) {
+    const bool needs_none = widget.kind == WidgetKind::Label || widget.kind == WidgetKind::Separator;
+    if (needs_none && widget.name.empty()) {
       if (widget.kind == WidgetKind::Label && widget.text.front().empty())
         keys.require("text", "text = \"...\"");
       return;
@@ -223,7 +328,8 @@ class ElementReader {
       problems_.add(place, fmt::format("the element: a daisy has {} items at most, not {}.", kMostOnDaisy,
                                        element.widgets.size()));
     for (const Widget& widget : element.widgets)
-      if (!widget.can_be_chosen() || widget.kind == WidgetKind::Slider)
+      if (widget.kind != WidgetKind::Item && widget.kind != WidgetKind::Check &&
+          widget.kind != WidgetKind::Radio)
         problems_.add(place, fmt::format("the element: on a daisy lie items, checks and radios, not '{}'.",
                                          widget.name.empty() ? widget.text.front() : widget.name));
   }
@@ -244,15 +350,22 @@ class ElementReader {
     if (cancels > 1) problems_.add(place, "the element: only one item can be the cancel.");
   }
 
-  void read_slider(KeyReader& keys, Widget& widget) {
+  void read_range(KeyReader& keys, Widget& widget) {
+    const bool is_number = widget.kind == WidgetKind::Number;
     widget.least = keys.number("least", 0.0, -1e9, 1e9);
-    widget.most = keys.number("most", 1.0, -1e9, 1e9);
+    widget.most = keys.number("most", std::max(is_number ? 100.0 : 1.0, widget.least + 1.0), -1e9, 1e9);
     if (widget.least >= widget.most) {
       problems_.add(keys.place_of("most"), fmt::format("item '{}': most must be above least.", widget.name));
       widget.most = widget.least + 1.0;
     }
-    widget.step = keys.number("step", 0.0, 0.0, widget.most - widget.least);
+    const double range = widget.most - widget.least;
+    widget.step = keys.number("step", is_number ? std::min(1.0, range) : 0.0, is_number ? 1e-9 : 0.0, range);
     widget.value = keys.number("value", widget.least, widget.least, widget.most);
+    if (is_number) widget.unit = keys.plain("unit");
+    widget.value_times = keys.number("value_times", 1.0, -1e9, 1e9);
+    if (keys.has("value_times") && !keys.has("value_as"))
+      problems_.add(keys.place_of("value_times"),
+                    fmt::format("item '{}': value_times needs value_as.", widget.name));
   }
 
   /// Says what is wrong with a value; empty: nothing that can be known without a design.
@@ -275,7 +388,11 @@ class ElementReader {
       problems_.add(keys.place_of("command"),
                     fmt::format("item '{}': it does either an operation or a command.", widget.name));
     const TomlNode* const with = keys.table("with");
+    widget.value_as = keys.plain("value_as");
     if (with != nullptr) widget.with = *value_from_toml(*with).fields();
+    if (!widget.value_as.empty() && widget.operation.empty())
+      problems_.add(keys.place_of("value_as"),
+                    fmt::format("item '{}': value_as needs operation.", widget.name));
     if (widget.operation.empty()) {
       if (with != nullptr)
         problems_.add(with->place, fmt::format("item '{}': with needs operation.", widget.name));
@@ -287,9 +404,10 @@ class ElementReader {
                     fmt::format("item '{}': {}", widget.name, found.error().message));
       return;
     }
-    if (with == nullptr) return;
     std::vector<std::string> names;
     for (const Parameter& parameter : (*found)->parameters) names.push_back(parameter.name);
+    if (!widget.value_as.empty()) check_value_as(keys, widget, **found, names);
+    if (with == nullptr) return;
     for (const io::TomlMember& member : with->members) {
       const auto parameter = std::ranges::find((*found)->parameters, member.key, &Parameter::name);
       if (parameter == (*found)->parameters.end()) {
@@ -303,8 +421,56 @@ class ElementReader {
     }
   }
 
+  /// Values that a widget can have, among them those at its ends.
+  static std::vector<Value> values_of(const Widget& widget) {
+    switch (widget.kind) {
+      case WidgetKind::Slider:
+      case WidgetKind::Number: {
+        const double second =
+            widget.step > 0.0 ? widget.least + widget.step : 0.5 * (widget.least + widget.most);
+        std::vector<Value> values;
+        for (const double value : {widget.least, second, widget.most, widget.value})
+          values.emplace_back(widget.value_times * value);
+        return values;
+      }
+      case WidgetKind::Check:
+        return {true, false};
+      case WidgetKind::Colour:
+        return {colour_text(widget.colour)};
+      case WidgetKind::List: {
+        std::vector<Value> names;
+        for (const Widget& row : widget.widgets)
+          if (row.operation.empty()) names.emplace_back(row.name);
+        return names;
+      }
+      default:
+        return {};
+    }
+  }
+
+  /// The argument that takes the value must be there, take every one of them, and not be said in `with`.
+  void check_value_as(KeyReader& keys, const Widget& widget, const Operation& operation,
+                      const std::vector<std::string>& names) {
+    const auto add = [&](const std::string& what) {
+      problems_.add(keys.place_of("value_as"), fmt::format("item '{}': {}", widget.name, what));
+    };
+    const auto parameter = std::ranges::find(operation.parameters, widget.value_as, &Parameter::name);
+    const std::vector<Value> values = values_of(widget);
+    if (parameter == operation.parameters.end())
+      return add(fmt::format("{} takes no '{}'{}", widget.operation, widget.value_as,
+                             base::suggestion(widget.value_as, names)));
+    if (values.empty())
+      return add("it has no value for value_as; a check, slider, number, colour or list has.");
+    if (field(widget.with, widget.value_as) != nullptr)
+      return add(fmt::format("'{}' is said in with, too.", widget.value_as));
+    for (const Value& value : values)
+      if (const std::string wrong = trouble_with(*parameter, value); !wrong.empty())
+        return add(fmt::format("its value does not fit: {}", wrong));
+  }
+
   Problems problems_;
   std::set<std::string> names_;
+  std::map<std::string, io::Place> places_;
   std::size_t count_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "interaction/elements/element_layout.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,13 +11,18 @@ namespace {
 
 // In heights of a capital letter.
 constexpr double kRow = 2.4;         // height of a row
-constexpr double kBold = 1.15;       // times as wide are the bold letters of titles
+constexpr double kBold = 1.15;       // times as wide are bold letters, of titles and of what is chosen
 constexpr double kPadding = 0.9;     // from the border to text
 constexpr double kIconRoom = 2.2;    // for a square before the text
 constexpr double kMarkRoom = 2.0;    // for a tick before it
 constexpr double kArrowRoom = 1.6;   // for the arrow of a menu behind it
 constexpr double kSeparator = 0.8;   // height of a separator
 constexpr double kSliderRoom = 9.0;  // least width of a groove
+constexpr double kHandle = 2.2;      // width of what makes a number less or more, and of a bar that scrolls
+constexpr double kFieldRoom = 4.0;   // least width of a field of digits
+constexpr double kWheel = 15.0;      // diameter of a ring of hues
+constexpr double kRingWidth = 1.9;   // of that ring
+constexpr double kCodeRoom = 8.5;    // for the code and the square of a colour, behind its name
 constexpr double kGap = 0.5;         // between buttons, and between an item and its menu
 constexpr double kLine = 1.7;        // height of a line of words
 constexpr double kRoom = 0.4;        // above and below the rows of a menu, and the words of a dialog
@@ -48,19 +55,46 @@ std::vector<std::string> broken(const std::string& text, double most, const Text
   return lines;
 }
 
+/// The room before the texts of widgets below each other.
+struct TextRoom {
+  bool marks = false, icons = false;
+};
+
+TextRoom room_of(const Widget& widget) { return {has_mark(widget), !widget.icon.empty()}; }
+
+TextRoom room_of(const std::vector<Widget>& widgets) {
+  TextRoom room;
+  for (const Widget& widget : widgets) {
+    room.marks = room.marks || has_mark(widget);
+    room.icons = room.icons || !widget.icon.empty();
+  }
+  return room;
+}
+
+/// Widgets below each other, of which not all need be seen.
+struct Rows {
+  const std::vector<Widget>& widgets;
+  const Widget* of = nullptr;  // the List or the Item that opens the menu; null: the element
+  std::uint32_t most = 0;      // seen; 0: all
+
+  bool scroll() const { return most > 0 && widgets.size() > most; }
+};
+
 class Arranger {
  public:
-  Arranger(const Element& element, std::size_t language, const TextMeasure& measure, ElementLayout& layout)
+  Arranger(const Element& element, std::size_t language, const TextMeasure& measure, const ShownParts& shown,
+           ElementLayout& layout)
       : element_(element),
         language_(language),
         measure_(measure),
+        shown_(shown),
         layout_(layout),
         unit_(element.text_height) {}
 
   void arrange_element() {
     switch (element_.kind) {
       case ElementKind::Menu:
-        return arrange_column(element_.widgets, nullptr, title(), Vector2::Zero());
+        return arrange_menu_sheet({element_.widgets, nullptr, element_.rows}, title(), std::nullopt);
       case ElementKind::Toolbar:
         return arrange_grid();
       case ElementKind::Dialog:
@@ -74,20 +108,16 @@ class Arranger {
     }
   }
 
-  /// The menu of an item that is laid out, to its right, its first row beside the item.
-  void arrange_menu(const Widget& opener) {
-    const auto found = std::ranges::find(layout_.widgets, &opener, &LaidWidget::widget);
-    if (found == layout_.widgets.end()) return;
+  /// The menu of an item that is laid out, to its right, its first row beside the item. False: it is not.
+  bool arrange_menu(const Widget& opener) {
+    const LaidWidget* const found = layout_.widget(opener);
+    if (found == nullptr) return false;
     const LaidSheet& sheet = layout_.sheets[found->sheet];
     const Vector2 corner(
         std::max(sheet.centre.x() + sheet.half.x(), found->centre.x() + found->half.x()) + kGap * unit_,
         found->centre.y() + found->half.y());
-    const std::size_t first = layout_.widgets.size();
-    arrange_column(opener.widgets, &opener, "", Vector2::Zero());
-    LaidSheet& menu = layout_.sheets.back();
-    const Vector2 shift = corner + Vector2(menu.half.x(), -menu.half.y()) - menu.centre;
-    menu.centre += shift;
-    for (std::size_t i = first; i < layout_.widgets.size(); ++i) layout_.widgets[i].centre += shift;
+    arrange_menu_sheet({opener.widgets, &opener, opener.rows}, "", corner);
+    return true;
   }
 
  private:
@@ -95,20 +125,96 @@ class Arranger {
     return language_ < element_.title.size() ? element_.title[language_] : std::string();
   }
   double width_of(const std::string& text) const { return measure_(text) * unit_; }
+  double width_of_title(const std::string& title) const {
+    return title.empty() ? 0.0 : kBold * width_of(title) + 2.0 * kPadding * unit_;
+  }
 
-  double width_of(const Widget& widget, bool marks, bool icons) const {
-    if (widget.kind == WidgetKind::Separator) return 0.0;
-    double width = width_of(text_of(widget, language_)) + 2.0 * kPadding * unit_;
-    if (marks) width += kMarkRoom * unit_;
-    if (icons) width += kIconRoom * unit_;
-    if (!widget.widgets.empty()) width += kArrowRoom * unit_;
-    if (widget.kind == WidgetKind::Slider) width += kSliderRoom * unit_;
+  /// The width of a field that holds every value of a Number.
+  double width_of_field(const Widget& number) const {
+    const std::string behind = number.unit.empty() ? "" : " " + number.unit;
+    double width = kFieldRoom * unit_;
+    for (const double value : {number.least, number.most, number.value})
+      width = std::max(width, width_of(number_text(value) + behind) + kPadding * unit_);
     return width;
   }
 
-  LaidWidget& add(const Widget& widget, const Vector2& centre, const Vector2& half) {
-    return layout_.widgets.emplace_back(
-        LaidWidget{&widget, layout_.sheets.size() - 1, centre, half, {}, {text_of(widget, language_)}});
+  /// The width of a widget that is one row high.
+  double width_of(const Widget& widget, const TextRoom& room) const {
+    if (widget.kind == WidgetKind::Separator) return 0.0;
+    const bool may_be_bold = widget.kind == WidgetKind::Row || widget.kind == WidgetKind::Page;
+    const double text = (may_be_bold ? kBold : 1.0) * width_of(text_of(widget, language_));
+    double width = text + 2.0 * kPadding * unit_;
+    if (room.marks) width += kMarkRoom * unit_;
+    if (room.icons) width += kIconRoom * unit_;
+    if (widget.opens_menu()) width += kArrowRoom * unit_;
+    if (widget.kind == WidgetKind::Slider) width += kSliderRoom * unit_;
+    if (widget.kind == WidgetKind::Number) width += 2.0 * kHandle * unit_ + width_of_field(widget);
+    return width;
+  }
+
+  /// The size of a widget of a column.
+  Vector2 size_of(const Widget& widget, const TextRoom& room) const {
+    switch (widget.kind) {
+      case WidgetKind::Separator:
+        return {0.0, kSeparator * unit_};
+      case WidgetKind::List:
+        return size_of_list(widget);
+      case WidgetKind::Tabs:
+        return size_of_tabs(widget);
+      case WidgetKind::Colour: {
+        const double text = width_of(text_of(widget, language_)) + kCodeRoom * unit_;
+        return {std::max(text, kWheel * unit_) + 2.0 * kPadding * unit_, (kRow + kWheel + kPadding) * unit_};
+      }
+      default:
+        return {width_of(widget, room), kRow * unit_};
+    }
+  }
+
+  Vector2 size_of_rows(const Rows& rows) const {
+    const TextRoom room = room_of(rows.widgets);
+    Vector2 size = Vector2::Zero();
+    for (const Widget& widget : rows.widgets) {
+      const Vector2 own = rows.scroll() ? Vector2(width_of(widget, room), 0.0) : size_of(widget, room);
+      size = Vector2(std::max(size.x(), own.x()), size.y() + own.y());
+    }
+    if (rows.scroll()) size = Vector2(size.x() + kHandle * unit_, rows.most * kRow * unit_);
+    return size;
+  }
+
+  static Rows rows_of(const Widget& list) { return {list.widgets, &list, list.rows}; }
+  double heading_of(const Widget& list) const { return list.text.empty() ? 0.0 : kRow * unit_; }
+
+  Vector2 size_of_list(const Widget& list) const {
+    const Vector2 rows = size_of_rows(rows_of(list));
+    const double text = list.text.empty() ? 0.0 : width_of(list, TextRoom());
+    return {std::max(text, rows.x() + 2.0 * kRoom * unit_),
+            heading_of(list) + rows.y() + 2.0 * kRoom * unit_};
+  }
+
+  double width_of_header(const Widget& page) const { return width_of(page, room_of(page)); }
+
+  Vector2 size_of_tabs(const Widget& tabs) const {
+    double headers = 0.0;
+    Vector2 largest = Vector2::Zero();
+    for (const Widget& page : tabs.widgets) {
+      headers += width_of_header(page);
+      largest = largest.cwiseMax(size_of_rows({page.widgets, &page}));
+    }
+    return {std::max(headers, largest.x()) + 2.0 * kRoom * unit_,
+            kRow * unit_ + largest.y() + 3.0 * kRoom * unit_};
+  }
+
+  std::size_t sheet() const { return layout_.sheets.size() - 1; }
+
+  LaidWidget& add(const Widget& widget, const Vector2& centre, const Vector2& half, const TextRoom& room) {
+    LaidWidget laid{&widget, sheet(), centre, half, {}, {text_of(widget, language_)}};
+    laid.has_mark_room = room.marks;
+    laid.has_icon_room = room.icons;
+    return layout_.widgets.emplace_back(std::move(laid));
+  }
+
+  void add_handle(HandleKind kind, const Widget* of, const Vector2& centre, const Vector2& half) {
+    layout_.handles.push_back({kind, of, sheet(), {centre, half}});
   }
 
   void add_sheet(const Widget* opened_by, const Vector2& centre, const Vector2& half,
@@ -116,26 +222,93 @@ class Arranger {
     layout_.sheets.push_back({opened_by, centre, half, title, title.empty() ? 0.0 : kRow * unit_});
   }
 
-  void arrange_column(const std::vector<Widget>& widgets, const Widget* opened_by, const std::string& title,
-                      const Vector2& centre) {
-    const bool marks = std::ranges::any_of(widgets, has_mark);
-    const bool icons = std::ranges::any_of(widgets, [](const Widget& it) { return !it.icon.empty(); });
-    const auto height_of = [&](const Widget& widget) {
-      return (widget.kind == WidgetKind::Separator ? kSeparator : kRow) * unit_;
-    };
-    double width = title.empty() ? 0.0 : kBold * width_of(title) + 2.0 * kPadding * unit_;
-    double height = (title.empty() ? 0.0 : kRow * unit_) + 2.0 * kRoom * unit_;
-    for (const Widget& widget : widgets) {
-      width = std::max(width, width_of(widget, marks, icons));
-      height += height_of(widget);
+  /// A widget that is one row high.
+  LaidWidget& place_row(const Widget& widget, const Vector2& centre, const Vector2& half,
+                        const TextRoom& room) {
+    if (widget.kind == WidgetKind::Number) {
+      const Vector2 handle(0.5 * kHandle * unit_, std::min(half.y(), 0.5 * kRow * unit_));
+      const double right = centre.x() + half.x() - handle.x();
+      const double left = right - width_of_field(widget) - 2.0 * handle.x();
+      add_handle(HandleKind::Less, &widget, {left, centre.y()}, handle);
+      add_handle(HandleKind::More, &widget, {right, centre.y()}, handle);
     }
-    add_sheet(opened_by, centre, 0.5 * Vector2(width, height), title);
-    double top = centre.y() + 0.5 * height - layout_.sheets.back().title_height - kRoom * unit_;
-    for (const Widget& widget : widgets) {
-      const double own = height_of(widget);
-      add(widget, {centre.x(), top - 0.5 * own}, 0.5 * Vector2(width, own));
-      top -= own;
+    return add(widget, centre, half, room);
+  }
+
+  /// A widget of a column, with its upper left corner there.
+  void place(const Widget& widget, const Vector2& corner, const Vector2& size, const TextRoom& room) {
+    if (widget.kind == WidgetKind::List) return place_list(widget, corner, size);
+    if (widget.kind == WidgetKind::Tabs) return place_tabs(widget, corner, size);
+    const Vector2 half = 0.5 * size;
+    place_row(widget, corner + Vector2(half.x(), -half.y()), half, room);
+  }
+
+  void place_list(const Widget& list, const Vector2& corner, const Vector2& size) {
+    const double heading = heading_of(list), room = kRoom * unit_;
+    if (heading > 0.0)
+      add(list, corner + 0.5 * Vector2(size.x(), -heading), 0.5 * Vector2(size.x(), heading), TextRoom());
+    const Vector2 inner = corner + Vector2(room, -heading - room);
+    const Vector2 rows(size.x() - 2.0 * room, size.y() - heading - 2.0 * room);
+    layout_.frames.push_back({&list, sheet(), box_of(inner, rows)});
+    place_rows(rows_of(list), inner, rows.x());
+  }
+
+  void place_tabs(const Widget& tabs, const Vector2& corner, const Vector2& size) {
+    const double room = kRoom * unit_, row = kRow * unit_;
+    double left = corner.x() + room;
+    for (const Widget& page : tabs.widgets) {
+      const double width = width_of_header(page);
+      add(page, {left + 0.5 * width, corner.y() - 0.5 * row}, 0.5 * Vector2(width, row), room_of(page));
+      left += width;
     }
+    const Vector2 inner = corner + Vector2(room, -row), all(size.x() - 2.0 * room, size.y() - row - room);
+    layout_.frames.push_back({&tabs, sheet(), box_of(inner, all)});
+    if (const Widget* const page = shown_.page_of(tabs))
+      place_rows({page->widgets, page}, inner - Vector2(0.0, room), all.x());
+  }
+
+  static LaidBox box_of(const Vector2& corner, const Vector2& size) {
+    return {corner + 0.5 * Vector2(size.x(), -size.y()), 0.5 * size};
+  }
+
+  void place_rows(const Rows& rows, const Vector2& corner, double width) {
+    if (rows.scroll()) return place_scrolled(rows, corner, width);
+    const TextRoom room = room_of(rows.widgets);
+    Vector2 at = corner;
+    for (const Widget& widget : rows.widgets) {
+      const Vector2 size(width, size_of(widget, room).y());
+      place(widget, at, size, room);
+      at.y() -= size.y();
+    }
+  }
+
+  void place_scrolled(const Rows& rows, const Vector2& corner, double width) {
+    const double row = kRow * unit_, bar = kHandle * unit_, height = rows.most * row;
+    LaidColumn column{rows.of, sheet(), box_of(corner, {width, height}), 0, rows.most, rows.widgets.size()};
+    if (const auto found = shown_.first_rows.find(rows.of); found != shown_.first_rows.end())
+      column.first = std::min(found->second, column.last_first());
+    const TextRoom room = room_of(rows.widgets);
+    const Vector2 half = 0.5 * Vector2(width - bar, row);
+    for (std::size_t i = 0; i < column.seen; ++i)
+      place_row(rows.widgets[column.first + i],
+                corner + Vector2(half.x(), -(2.0 * double(i) + 1.0) * half.y()), half, room);
+    const double arrow = std::min(row, height / 3.0), middle = corner.x() + width - 0.5 * bar;
+    const Vector2 end = 0.5 * Vector2(bar, arrow);
+    add_handle(HandleKind::Less, rows.of, {middle, corner.y() - 0.5 * arrow}, end);
+    add_handle(HandleKind::More, rows.of, {middle, corner.y() - height + 0.5 * arrow}, end);
+    add_handle(HandleKind::Bar, rows.of, {middle, corner.y() - 0.5 * height},
+               0.5 * Vector2(bar, height - 2.0 * arrow));
+    layout_.columns.push_back(column);
+  }
+
+  /// A sheet with rows below each other: the element's own in its middle, another one with its corner there.
+  void arrange_menu_sheet(const Rows& rows, const std::string& title, const std::optional<Vector2>& corner) {
+    const double head = title.empty() ? 0.0 : kRow * unit_, room = kRoom * unit_;
+    const Vector2 inner = size_of_rows(rows);
+    const Vector2 size(std::max(inner.x(), width_of_title(title)), inner.y() + head + 2.0 * room);
+    const Vector2 half = 0.5 * size, at = corner.value_or(Vector2(-half.x(), half.y()));
+    add_sheet(rows.of, at + Vector2(half.x(), -half.y()), half, title);
+    place_rows(rows, at - Vector2(0.0, head + room), size.x());
   }
 
   void arrange_grid() {
@@ -143,10 +316,7 @@ class Arranger {
     const std::size_t columns =
         element_.columns == 0 ? count : std::min<std::size_t>(element_.columns, count);
     const std::size_t rows = (count + columns - 1) / columns;
-    double width = 0.0;
-    for (const Widget& widget : element_.widgets)
-      width = std::max(width, width_of(widget, has_mark(widget), !widget.icon.empty()));
-    const double height = (kRow + kPadding) * unit_, gap = kGap * unit_;
+    const double width = largest().x(), height = (kRow + kPadding) * unit_, gap = kGap * unit_;
     const Vector2 cell(width + gap, height + gap);
     const double head = title().empty() ? 0.0 : kRow * unit_;
     const double whole =
@@ -156,61 +326,73 @@ class Arranger {
     for (std::size_t i = 0; i < count; ++i) {
       const double x = (double(i % columns) - 0.5 * double(columns - 1)) * cell.x();
       const double y = half.y() - head - gap - (double(i / columns) + 0.5) * cell.y() + 0.5 * gap;
-      add(element_.widgets[i], {x, y}, 0.5 * Vector2(width, height));
+      place_alone(element_.widgets[i], {x, y}, 0.5 * Vector2(width, height));
     }
+  }
+
+  LaidWidget& place_alone(const Widget& widget, const Vector2& centre, const Vector2& half) {
+    LaidWidget& laid = place_row(widget, centre, half, room_of(widget));
+    laid.stands_alone = true;
+    return laid;
+  }
+
+  /// The size of a widget of a dialog that is no button, with its words as they are broken.
+  Vector2 size_in_dialog(const Widget& widget, const std::vector<std::string>& words) const {
+    if (widget.kind != WidgetKind::Label) return size_of(widget, room_of(widget));
+    double widest = 0.0;
+    for (const std::string& line : words) widest = std::max(widest, width_of(line));
+    return {widest + 2.0 * kPadding * unit_, double(words.size()) * kLine * unit_ + kGap * unit_};
+  }
+
+  std::vector<std::string> words_of(const Widget& widget) const {
+    return broken(text_of(widget, language_), element_.width / unit_, measure_);
   }
 
   /// Words below each other, then buttons beside each other.
   void arrange_dialog() {
     const double gap = kGap * unit_, row = kRow * unit_;
-    double width = kBold * width_of(title()) + 2.0 * kPadding * unit_,
-           height = (title().empty() ? 0.0 : row) + kRoom * unit_;
+    double width = width_of_title(title()), height = (title().empty() ? 0.0 : row) + kRoom * unit_;
     double buttons = gap;
-    std::vector<std::vector<std::string>> words;
     for (const Widget& widget : element_.widgets) {
-      const bool is_button = widget.kind == WidgetKind::Item;
-      words.push_back(broken(text_of(widget, language_), element_.width / unit_, measure_));
-      double widest = 0.0;
-      for (const std::string& line : words.back()) widest = std::max(widest, width_of(line));
-      if (is_button) {
-        buttons += width_of(widget, false, !widget.icon.empty()) + gap;
-      } else {
-        width = std::max({width, widest + 2.0 * kPadding * unit_, width_of(widget, has_mark(widget), false)});
-        height += widget.kind == WidgetKind::Label ? double(words.back().size()) * kLine * unit_ + gap : row;
+      if (widget.kind == WidgetKind::Item) {
+        buttons += width_of(widget, room_of(widget)) + gap;
+        continue;
       }
+      const Vector2 size = size_in_dialog(widget, words_of(widget));
+      width = std::max(width, size.x());
+      height += size.y();
     }
     const bool any_button = buttons > gap;
     width = std::max(width, buttons);
     if (any_button) height += row + 2.0 * gap;
     add_sheet(nullptr, Vector2::Zero(), 0.5 * Vector2(width, height), title());
-    place_dialog(words, Vector2(width, height), buttons);
+    place_dialog(Vector2(width, height), buttons);
   }
 
-  void place_dialog(const std::vector<std::vector<std::string>>& words, const Vector2& size, double buttons) {
+  void place_dialog(const Vector2& size, double buttons) {
     const double gap = kGap * unit_, row = kRow * unit_;
     double top = 0.5 * size.y() - layout_.sheets.back().title_height - kRoom * unit_;
     double left = 0.5 * size.x() - buttons + gap;
-    for (std::size_t i = 0; i < element_.widgets.size(); ++i) {
-      const Widget& widget = element_.widgets[i];
+    for (const Widget& widget : element_.widgets) {
       if (widget.kind == WidgetKind::Item) {
-        const double width = width_of(widget, false, !widget.icon.empty());
-        add(widget, {left + 0.5 * width, -0.5 * size.y() + gap + 0.5 * row}, 0.5 * Vector2(width, row));
+        const double width = width_of(widget, room_of(widget));
+        place_alone(widget, {left + 0.5 * width, -0.5 * size.y() + gap + 0.5 * row},
+                    0.5 * Vector2(width, row));
         left += width + gap;
         continue;
       }
-      const bool is_label = widget.kind == WidgetKind::Label;
-      const double height = is_label ? double(words[i].size()) * kLine * unit_ + gap : row;
-      LaidWidget& laid = add(widget, {0.0, top - 0.5 * height}, 0.5 * Vector2(size.x(), height));
-      if (is_label) laid.lines = words[i];
-      top -= height;
+      std::vector<std::string> words = words_of(widget);
+      const Vector2 own(size.x(), size_in_dialog(widget, words).y());
+      place(widget, {-0.5 * size.x(), top}, own, room_of(widget));
+      if (widget.kind == WidgetKind::Label) layout_.widgets.back().lines = std::move(words);
+      top -= own.y();
     }
   }
 
   /// The size of the largest item, for those round a middle.
   Vector2 largest() const {
     double width = 0.0;
-    for (const Widget& widget : element_.widgets)
-      width = std::max(width, width_of(widget, has_mark(widget), !widget.icon.empty()));
+    for (const Widget& widget : element_.widgets) width = std::max(width, width_of(widget, room_of(widget)));
     return {width, kRow * unit_};
   }
 
@@ -255,8 +437,8 @@ class Arranger {
     const Vector2 half = Vector2::Constant(radius) + 0.5 * size + Vector2::Constant(kGap * unit_);
     layout_.sheets.push_back({nullptr, Vector2::Zero(), half, title(), 0.0, middle});
     for (std::size_t i = 0; i < count; ++i)
-      add(element_.widgets[i], radius * clockwise(2.0 * std::numbers::pi * double(i) / double(count)),
-          0.5 * size);
+      place_alone(element_.widgets[i], radius * clockwise(2.0 * std::numbers::pi * double(i) / double(count)),
+                  0.5 * size);
   }
 
   void arrange_pie() {
@@ -281,12 +463,13 @@ class Arranger {
     sheet.title_half = middle_title();
     sheet.sphere = DaisySphere{daisy.radius, element_.cone};
     for (std::size_t i = 0; i < daisy.places.size(); ++i)
-      add(element_.widgets[i], daisy.places[i], 0.5 * size);
+      place_alone(element_.widgets[i], daisy.places[i], 0.5 * size);
   }
 
   const Element& element_;
   std::size_t language_;
   const TextMeasure& measure_;
+  const ShownParts& shown_;
   ElementLayout& layout_;
   double unit_;
 };
@@ -302,14 +485,33 @@ bool Sector::contains(const Vector2& from_middle) const {
   return behind - turn * std::floor(behind / turn) < to - from;
 }
 
-bool LaidWidget::contains(const Vector2& place) const {
-  if (sector) return sector->contains(place);
+bool LaidBox::contains(const Vector2& place) const {
   return ((place - centre).cwiseAbs().array() <= half.array()).all();
+}
+
+bool LaidWidget::contains(const Vector2& place) const {
+  return sector ? sector->contains(place) : LaidBox{centre, half}.contains(place);
 }
 
 SliderGroove groove_of(const LaidWidget& slider, double text_height) {
   const double right = slider.centre.x() + slider.half.x() - kPadding * text_height;
   return {right - (kSliderRoom - kPadding) * text_height, right};
+}
+
+ColourWheel wheel_of(const LaidWidget& picker, double text_height) {
+  ColourWheel wheel;
+  wheel.outer = 0.5 * kWheel * text_height;
+  wheel.inner = wheel.outer - kRingWidth * text_height;
+  wheel.corner = wheel.inner - kGap * text_height;
+  wheel.centre = picker.centre + Vector2(0.0, kPadding * text_height + wheel.outer - picker.half.y());
+  return wheel;
+}
+
+const Widget* ShownParts::page_of(const Widget& tabs) const {
+  if (const auto found = pages.find(&tabs); found != pages.end()) return found->second;
+  if (tabs.widgets.empty()) return nullptr;
+  const auto named = std::ranges::find(tabs.widgets, tabs.chosen, &Widget::name);
+  return named == tabs.widgets.end() ? &tabs.widgets.front() : &*named;
 }
 
 const LaidWidget* ElementLayout::at(const Vector2& place) const {
@@ -333,13 +535,51 @@ const LaidWidget* ElementLayout::in_cone(const Vector2& front) const {
   return nearest;
 }
 
+const LaidHandle* ElementLayout::handle_at(const Vector2& place) const {
+  const auto found =
+      std::ranges::find_if(handles, [&](const LaidHandle& it) { return it.box.contains(place); });
+  return found == handles.end() ? nullptr : &*found;
+}
+
+const LaidColumn* ElementLayout::column_at(const Vector2& place) const {
+  const auto found =
+      std::ranges::find_if(columns, [&](const LaidColumn& it) { return it.box.contains(place); });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+const LaidWidget* ElementLayout::widget(const Widget& widget) const {
+  const auto found = std::ranges::find(widgets, &widget, &LaidWidget::widget);
+  return found == widgets.end() ? nullptr : &*found;
+}
+
+const LaidHandle* ElementLayout::handle(HandleKind kind, const Widget* of) const {
+  const auto found =
+      std::ranges::find_if(handles, [&](const LaidHandle& it) { return it.kind == kind && it.of == of; });
+  return found == handles.end() ? nullptr : &*found;
+}
+
+const LaidColumn* ElementLayout::column(const Widget* of) const {
+  const auto found = std::ranges::find(columns, of, &LaidColumn::of);
+  return found == columns.end() ? nullptr : &*found;
+}
+
+LaidBox field_of(const ElementLayout& layout, const Widget& number) {
+  const LaidBox& less = layout.handle(HandleKind::Less, &number)->box;
+  const LaidBox& more = layout.handle(HandleKind::More, &number)->box;
+  const double left = less.centre.x() + less.half.x(), right = more.centre.x() - more.half.x();
+  return {{0.5 * (left + right), less.centre.y()}, {0.5 * (right - left), less.half.y()}};
+}
+
+std::string number_text(double value) { return fmt::format("{:.10g}", value == 0.0 ? 0.0 : value); }
+
 ElementLayout lay_out(const Element& element, std::size_t language, const TextMeasure& measure,
-                      std::span<const Widget* const> open) {
+                      std::span<const Widget* const> open, const ShownParts& shown) {
   ElementLayout layout;
   layout.language = language;
-  Arranger arranger(element, language, measure, layout);
+  Arranger arranger(element, language, measure, shown, layout);
   if (!element.widgets.empty()) arranger.arrange_element();
-  for (const Widget* const opener : open) arranger.arrange_menu(*opener);
+  for (const Widget* const opener : open)
+    if (!arranger.arrange_menu(*opener)) break;
   return layout;
 }
 

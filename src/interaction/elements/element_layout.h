@@ -4,8 +4,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
+#include "interaction/elements/colour_wheel.h"
 #include "interaction/elements/daisy.h"
 #include "interaction/elements/element.h"
 
@@ -22,6 +24,14 @@ struct Sector {
   bool contains(const Vector2& from_middle) const;
 };
 
+/// A rectangle in the plane of the element: m to the right of its centre, and up.
+struct LaidBox {
+  Vector2 centre = Vector2::Zero();
+  Vector2 half = Vector2::Zero();  // half its width and height
+
+  bool contains(const Vector2& place) const;
+};
+
 /// A widget at its place. Lengths in the plane of the element: m to the right of its centre, and up.
 struct LaidWidget {
   const Widget* widget = nullptr;  // the element's
@@ -29,7 +39,9 @@ struct LaidWidget {
   Vector2 centre = Vector2::Zero();
   Vector2 half = Vector2::Zero();  // half its width and height
   std::optional<Sector> sector = {};
-  std::vector<std::string> lines = {};  // its text, broken where it must be
+  std::vector<std::string> lines = {};                // its text, broken where it must be
+  bool has_mark_room = false, has_icon_room = false;  // before its text
+  bool stands_alone = false;                          // has a border, as a button
 
   bool contains(const Vector2& place) const;
 };
@@ -40,6 +52,53 @@ struct SliderGroove {
 };
 /// The groove of a laid slider in an element whose text is that high.
 SliderGroove groove_of(const LaidWidget& slider, double text_height);
+
+/// The ring and triangle of a laid Colour in an element whose text is that high.
+ColourWheel wheel_of(const LaidWidget& picker, double text_height);
+
+/// The parts of widgets that are clicked, pushed and held.
+enum class HandleKind : std::uint8_t {
+  Less,  // one step back: of a Number, or up among rows
+  More,
+  Bar,       // of rows that scroll, between the two
+  Ring,      // of a Colour; see ColourWheel
+  Triangle,  // of a Colour
+};
+
+/// A Less, More or Bar at its place.
+struct LaidHandle {
+  HandleKind kind = HandleKind::Less;
+  const Widget* of = nullptr;  // the Number, the List, or the Item that opened the menu; null: the element
+  std::size_t sheet = 0;
+  LaidBox box = {};
+};
+
+/// Rows of which not all are seen.
+struct LaidColumn {
+  const Widget* of = nullptr;  // the List, or the Item that opened the menu; null: the element
+  std::size_t sheet = 0;
+  LaidBox box = {};  // of all, with the bar
+  std::size_t first = 0, seen = 0, count = 0;
+
+  std::size_t last_first() const { return count - seen; }
+};
+
+/// The rows of a List, or the page of Tabs.
+struct LaidFrame {
+  const Widget* of = nullptr;
+  std::size_t sheet = 0;
+  LaidBox box = {};
+};
+
+/// What shows of an element where not all of it does.
+struct ShownParts {
+  /// The first row that is seen, by the List, or the Item that opens the menu; null: the element's own.
+  std::unordered_map<const Widget*, std::size_t> first_rows = {};
+  std::unordered_map<const Widget*, const Widget*> pages = {};  // by their Tabs
+
+  /// The page that shows; null: there is none.
+  const Widget* page_of(const Widget& tabs) const;
+};
 
 /// The ground of the element itself or of an open menu.
 struct LaidSheet {
@@ -56,18 +115,33 @@ struct LaidSheet {
 struct ElementLayout {
   std::vector<LaidSheet> sheets;  // the element's own first, then what is open
   std::vector<LaidWidget> widgets;
+  std::vector<LaidHandle> handles;
+  std::vector<LaidColumn> columns;
+  std::vector<LaidFrame> frames;
   std::size_t language = 0;
 
   /// The widget there, topmost sheet first; null: none. On a sphere it is the nearest in its cone.
   const LaidWidget* at(const Vector2& place) const;
+  // Null: there is none.
+  const LaidHandle* handle_at(const Vector2& place) const;
+  const LaidColumn* column_at(const Vector2& place) const;
+  const LaidWidget* widget(const Widget& widget) const;
+  const LaidHandle* handle(HandleKind kind, const Widget* of) const;
+  const LaidColumn* column(const Widget* of) const;
 
  private:
   const LaidWidget* in_cone(const Vector2& front) const;
 };
 
+/// The field of a laid Number, between its handles.
+LaidBox field_of(const ElementLayout& layout, const Widget& number);
+/// A value as people read and type it.
+std::string number_text(double value);
+
 /// Lays the element out, in one of its languages, with the menus of `open` beside the items that open them,
-/// each of which is in the menu before. Nobody places anything by hand: sizes follow from the text.
+/// each of which is in the menu before; those whose item does not show are left out. Nobody places anything
+/// by hand: sizes follow from the text.
 ElementLayout lay_out(const Element& element, std::size_t language, const TextMeasure& measure,
-                      std::span<const Widget* const> open = {});
+                      std::span<const Widget* const> open = {}, const ShownParts& shown = {});
 
 }  // namespace icome::interaction

@@ -20,6 +20,9 @@ using charts::Area;
 using charts::Canvas;
 using charts::Colour;
 using interaction::ElementKind;
+using interaction::HandleKind;
+using interaction::LaidBox;
+using interaction::LaidHandle;
 using interaction::LaidSheet;
 using interaction::LaidWidget;
 using interaction::Widget;
@@ -31,22 +34,24 @@ constexpr double kMostPixels = 4096.0;
 constexpr double kTitleRoom = 2.4;  // heights of a capital letter, above and below the ball of a daisy
 
 struct Colours {
-  Colour paper, ink, quiet, line, lit, on_lit, title, on_title;
+  Colour paper, ink, quiet, line, lit, on_lit, title, on_title, field, wrong;
 };
 
 Colours colours_of(ElementTheme theme) {
   switch (theme) {
     case ElementTheme::Light:
-      return {{0.985, 0.987, 0.99}, charts::kInk,    {0.58, 0.61, 0.66},  {0.80, 0.83, 0.87},
-              {0.10, 0.43, 0.78},   {1.0, 1.0, 1.0}, {0.91, 0.93, 0.955}, charts::kInk};
+      return {{0.985, 0.987, 0.99}, charts::kInk,      {0.58, 0.61, 0.66},  {0.80, 0.83, 0.87},
+              {0.10, 0.43, 0.78},   {1.0, 1.0, 1.0},   {0.91, 0.93, 0.955}, charts::kInk,
+              {1.0, 1.0, 1.0},      {0.78, 0.13, 0.10}};
     case ElementTheme::Dark:
       return {{0.15, 0.165, 0.19}, {0.93, 0.94, 0.95}, {0.50, 0.53, 0.57},  {0.30, 0.33, 0.37},
-              {0.25, 0.56, 0.93},  {1.0, 1.0, 1.0},    {0.21, 0.23, 0.265}, {0.93, 0.94, 0.95}};
+              {0.25, 0.56, 0.93},  {1.0, 1.0, 1.0},    {0.21, 0.23, 0.265}, {0.93, 0.94, 0.95},
+              {0.10, 0.11, 0.13},  {1.0, 0.45, 0.40}};
     case ElementTheme::HighContrast:
       break;
   }
-  return {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {0.65, 0.65, 0.65}, {1.0, 1.0, 1.0},
-          {1.0, 1.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0},    {1.0, 1.0, 1.0}};
+  return {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {0.65, 0.65, 0.65}, {1.0, 1.0, 1.0}, {1.0, 1.0, 0.0},
+          {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0},    {0.0, 0.0, 0.0}, {1.0, 0.5, 0.5}};
 }
 
 /// Draws one sheet; the page's y grows downward from the sheet's upper edge.
@@ -64,14 +69,15 @@ class SheetPainter {
   /// A sheet of that number, with all that lies on it.
   void paint(std::size_t number) {
     canvas_.fill({0.0, 0.0, canvas_.width(), canvas_.height()}, colours_.paper);
-    const auto& widgets = use_.layout().widgets;
-    const auto here = [&](const LaidWidget& laid) { return laid.sheet == number; };
-    marks_ = std::ranges::any_of(widgets, [&](const LaidWidget& it) { return here(it) && has_mark(it); });
-    icons_ = std::ranges::any_of(widgets,
-                                 [&](const LaidWidget& it) { return here(it) && !it.widget->icon.empty(); });
+    const auto& layout = use_.layout();
+    const auto here = [&](const auto& laid) { return laid.sheet == number; };
     paint_title();
-    for (const LaidWidget& laid : widgets)
+    for (const interaction::LaidFrame& frame : layout.frames)
+      if (here(frame)) paint_frame(frame);
+    for (const LaidWidget& laid : layout.widgets)
       if (here(laid)) paint_widget(laid);
+    for (const LaidHandle& handle : layout.handles)
+      if (here(handle)) paint_handle(handle);
   }
 
   /// A widget alone, as large as the page.
@@ -96,18 +102,14 @@ class SheetPainter {
   static bool has_mark(const LaidWidget& laid) {
     return laid.widget->kind == WidgetKind::Check || laid.widget->kind == WidgetKind::Radio;
   }
-  bool stands_alone() const {
-    const ElementKind kind = use_.element().kind;
-    return sheet_.opened_by == nullptr && kind != ElementKind::Menu;
-  }
 
   Vector2 page(const Vector2& place) const {
     return kMillimetres * Vector2(place.x() - sheet_.centre.x() + sheet_.half.x(),
                                   sheet_.centre.y() + sheet_.half.y() - place.y());
   }
-  Area area_of(const LaidWidget& laid) const {
-    const Vector2 corner = page(laid.centre + Vector2(-laid.half.x(), laid.half.y()));
-    return {corner.x(), corner.y(), 2.0 * kMillimetres * laid.half.x(), 2.0 * kMillimetres * laid.half.y()};
+  Area area_of(const LaidBox& box) const {
+    const Vector2 corner = page(box.centre + Vector2(-box.half.x(), box.half.y()));
+    return {corner.x(), corner.y(), 2.0 * kMillimetres * box.half.x(), 2.0 * kMillimetres * box.half.y()};
   }
   charts::TextStyle style(const Colour& colour, bool bold = false) const {
     return {unit_ / kCapital, colour, bold, 0.0, 0.0};
@@ -129,32 +131,192 @@ class SheetPainter {
 
   void paint_widget(const LaidWidget& laid) {
     const Widget& widget = *laid.widget;
-    const Area area = area_of(laid);
+    const Area area = area_of({laid.centre, laid.half});
     if (widget.kind == WidgetKind::Separator) return paint_separator(area);
-    if (widget.kind == WidgetKind::Label) return paint_words(laid, area);
-    const bool is_lit = use_.lit() == &widget;
-    const Colour ink = !widget.enabled ? colours_.quiet : is_lit ? colours_.on_lit : colours_.ink;
+    if (!widget.can_be_chosen()) return paint_words(laid, area);
+    if (widget.kind == WidgetKind::Colour) return paint_picker(laid, area);
+    const bool is_lit = is_filled(widget);
+    const Colour ink = ink_of(widget, is_lit);
     paint_ground(laid, area, is_lit);
     double left = area.x + 0.9 * unit_;
     const double middle = area.y + 0.5 * area.height;
-    const bool alone = stands_alone();
-    if (alone ? has_mark(laid) : marks_) {
+    if (laid.has_mark_room) {
       if (has_mark(laid)) paint_mark(widget, {left + 0.6 * unit_, middle}, ink);
       left += 2.0 * unit_;
     }
-    if (alone ? !widget.icon.empty() : icons_) {
+    if (laid.has_icon_room) {
       if (!widget.icon.empty()) paint_icon(widget, {left, middle - 0.8 * unit_, 1.6 * unit_, 1.6 * unit_});
       left += 2.2 * unit_;
     }
-    auto look = style(ink, widget.is_default);
-    const bool is_button = alone && !has_mark(laid) && widget.icon.empty() && widget.widgets.empty();
+    auto look = style(ink, widget.is_default || is_chosen(widget));
+    const bool is_button = laid.stands_alone && widget.icon.empty() && widget.widgets.empty();
     if (is_button && widget.kind == WidgetKind::Item) {
       look.align = 0.5;
       left = area.x + 0.5 * area.width;
     }
     canvas_.text({left, middle + 0.5 * unit_}, laid.lines.front(), look);
-    if (!widget.widgets.empty()) paint_arrow({area.right() - 1.2 * unit_, middle}, ink);
+    if (widget.opens_menu()) paint_arrow({area.right() - 1.2 * unit_, middle}, ink);
     if (widget.kind == WidgetKind::Slider) paint_slider(laid, middle, ink);
+    if (widget.kind == WidgetKind::Number) paint_field(widget);
+  }
+
+  bool is_filled(const Widget& widget) const {
+    return use_.lit() == &widget && widget.kind != WidgetKind::Number;
+  }
+  Colour ink_of(const Widget& widget, bool is_lit) const {
+    return !use_.settings().is_usable(widget) ? colours_.quiet : is_lit ? colours_.on_lit : colours_.ink;
+  }
+  /// Is it the row of its list, or the page of its tabs?
+  bool is_chosen(const Widget& widget) const {
+    if (widget.kind != WidgetKind::Row && widget.kind != WidgetKind::Page) return false;
+    const Widget* const parent = use_.settings().of(widget).parent;
+    return parent != nullptr && use_.settings().of(*parent).chosen == &widget;
+  }
+
+  static std::array<Vector2, 5> outline_of(const Area& area) {
+    return {Vector2(area.x, area.y), Vector2(area.right(), area.y), Vector2(area.right(), area.bottom()),
+            Vector2(area.x, area.bottom()), Vector2(area.x, area.y)};
+  }
+
+  void paint_frame(const interaction::LaidFrame& frame) {
+    const Area area = area_of(frame.box);
+    canvas_.line(outline_of(area), {colours_.line, 0.1 * unit_, {}});
+  }
+
+  /// The digits of a number, between what makes it less and more.
+  void paint_field(const Widget& number) {
+    const Area area = area_of(interaction::field_of(use_.layout(), number));
+    const std::string* const typed = use_.typed_into(number);
+    const bool is_lit = use_.lit() == &number, is_wrong = typed != nullptr && !use_.trouble().empty();
+    const charts::Stroke border{is_wrong ? colours_.wrong
+                                : is_lit ? colours_.lit
+                                         : colours_.line,
+                                (is_lit ? 0.22 : 0.1) * unit_,
+                                {}};
+    canvas_.fill(area, colours_.field);
+    canvas_.line(outline_of(area), border);
+    auto look = style(is_wrong ? colours_.wrong : ink_of(number, false));
+    look.align = 0.5;
+    const std::string behind = number.unit.empty() ? "" : " " + number.unit;
+    const std::string text =
+        (typed != nullptr ? *typed + "|" : interaction::number_text(use_.value_of(number))) + behind;
+    canvas_.text({area.x + 0.5 * area.width, area.y + 0.5 * (area.height + unit_)}, text, look);
+  }
+
+  void paint_handle(const LaidHandle& handle) {
+    const Area area = area_of(handle.box);
+    const bool is_lit = use_.lit_handle() == interaction::HandleName{handle.kind, handle.of};
+    const bool is_number = handle.of != nullptr && handle.of->kind == WidgetKind::Number;
+    if (handle.kind == HandleKind::Bar) return paint_bar(handle, area, is_lit);
+    canvas_.fill(area, is_lit ? colours_.lit : colours_.title);
+    canvas_.line(outline_of(area), {colours_.line, 0.1 * unit_, {}});
+    const bool is_off =
+        handle.of != nullptr && (is_number ? !use_.settings().is_usable(*handle.of) : !handle.of->enabled);
+    const Colour ink = is_off || !leads_on(handle) ? colours_.quiet : is_lit ? colours_.on_lit : colours_.ink;
+    const Vector2 middle(area.x + 0.5 * area.width, area.y + 0.5 * area.height);
+    is_number ? paint_sign(middle, handle.kind, ink) : paint_way(middle, handle.kind, ink);
+  }
+
+  /// Is there more of it in that direction?
+  bool leads_on(const LaidHandle& handle) const {
+    const bool less = handle.kind == HandleKind::Less;
+    if (const auto* const column = use_.layout().column(handle.of))
+      return less ? column->first > 0 : column->first < column->last_first();
+    const double value = use_.value_of(*handle.of);
+    return less ? value > handle.of->least : value < handle.of->most;
+  }
+
+  void paint_sign(const Vector2& middle, HandleKind kind, const Colour& ink) {
+    const charts::Stroke stroke{ink, 0.2 * unit_, {}};
+    const Vector2 right(0.5 * unit_, 0.0), down(0.0, 0.5 * unit_);
+    canvas_.line(std::array<Vector2, 2>{middle - right, middle + right}, stroke);
+    if (kind == HandleKind::More) canvas_.line(std::array<Vector2, 2>{middle - down, middle + down}, stroke);
+  }
+
+  /// An arrow up or down.
+  void paint_way(const Vector2& middle, HandleKind kind, const Colour& ink) {
+    const double down = (kind == HandleKind::More ? 1.0 : -1.0) * unit_;
+    const std::array<Vector2, 3> arrow{middle + Vector2(-0.5 * unit_, -0.25 * down),
+                                       middle + Vector2(0.5 * unit_, -0.25 * down),
+                                       middle + Vector2(0.0, 0.35 * down)};
+    canvas_.fill_polygon(arrow, ink);
+  }
+
+  void paint_bar(const LaidHandle& bar, const Area& area, bool is_lit) {
+    constexpr double kLeastThumb = 0.8;  // heights of a letter
+    canvas_.fill(area, colours_.title);
+    const interaction::LaidColumn& column = *use_.layout().column(bar.of);
+    const double height = std::min(
+        area.height, std::max(kLeastThumb * unit_, area.height * double(column.seen) / double(column.count)));
+    const double share = double(column.first) / double(std::max<std::size_t>(1, column.last_first()));
+    canvas_.fill(
+        {area.x + 0.3 * unit_, area.y + share * (area.height - height), area.width - 0.6 * unit_, height},
+        is_lit ? colours_.lit : colours_.quiet);
+  }
+
+  /// A picture of the ring and the triangle, on paper.
+  charts::Image wheel_picture(const interaction::ColourWheel& wheel, const Vector2& half,
+                              const interaction::Hsv& set) const {
+    constexpr int kSide = 360;  // pixels
+    charts::Image image{kSide, kSide, {}};
+    image.rgba.reserve(std::size_t(4) * kSide * kSide);
+    const double pixel = 2.0 * half.x() / kSide;
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) {
+        const Vector2 place =
+            wheel.centre + Vector2((x + 0.5) * pixel - half.x(), half.y() - (y + 0.5) * pixel);
+        const double r = (place - wheel.centre).norm();
+        const double on_ring = std::clamp(
+            0.5 -
+                (std::abs(r - 0.5 * (wheel.inner + wheel.outer)) - 0.5 * (wheel.outer - wheel.inner)) / pixel,
+            0.0, 1.0);
+        const double on_triangle = std::clamp(0.5 - wheel.outside_triangle(place) / pixel, 0.0, 1.0);
+        world::Colour hue = {}, shade = {};
+        if (on_ring > 0.0) hue = interaction::rgb_of({wheel.with_hue_at({}, place).hue, 1.0, 1.0});
+        if (on_triangle > 0.0) shade = interaction::rgb_of(wheel.with_shade_at(set, place));
+        const std::array<double, 3> paper{colours_.paper.red, colours_.paper.green, colours_.paper.blue};
+        for (std::size_t i = 0; i < 3; ++i) {
+          const double value = paper[i] + on_ring * (hue[i] - paper[i]) + on_triangle * (shade[i] - paper[i]);
+          image.rgba.push_back(std::uint8_t(std::lround(255.0 * std::clamp(value, 0.0, 1.0))));
+        }
+        image.rgba.push_back(255);
+      }
+    return image;
+  }
+
+  /// A ring that is seen on light and dark.
+  void paint_spot(const Vector2& place) {
+    canvas_.circle(page(place), 0.5 * unit_, {{0.0, 0.0, 0.0}, 0.3 * unit_, {}});
+    canvas_.circle(page(place), 0.5 * unit_, {{1.0, 1.0, 1.0}, 0.14 * unit_, {}});
+  }
+
+  void paint_picker(const LaidWidget& laid, const Area& area) {
+    const Widget& widget = *laid.widget;
+    const bool is_usable = use_.settings().is_usable(widget), is_lit = use_.lit() == &widget;
+    const interaction::Hsv set = use_.settings().of(widget).colour;
+    const world::Colour rgb = interaction::rgb_of(set);
+    const interaction::ColourWheel wheel = interaction::wheel_of(laid, use_.element().text_height);
+    const Vector2 half = Vector2::Constant(wheel.outer * 1.01);
+    const Colour ink = is_usable ? colours_.ink : colours_.quiet;
+    const double base = area.y + 1.2 * unit_ + 0.5 * unit_;
+    canvas_.text({area.x + 0.9 * unit_, base}, laid.lines.front(), style(ink));
+    auto look = style(ink);
+    look.align = 1.0;
+    canvas_.text({area.right() - 3.1 * unit_, base}, interaction::colour_text(rgb), look);
+    const Area square{area.right() - 2.5 * unit_, area.y + 0.4 * unit_, 1.6 * unit_, 1.6 * unit_};
+    canvas_.fill(square, {double(rgb[0]), double(rgb[1]), double(rgb[2])});
+    canvas_.line(outline_of(square), {colours_.line, 0.1 * unit_, {}});
+    canvas_.begin_group(area);
+    canvas_.image(wheel_picture(wheel, half, set), area_of({wheel.centre, half}));
+    if (is_usable) {
+      paint_spot(wheel.place_of_hue(set.hue));
+      paint_spot(wheel.place_of_shade(set));
+    }
+    canvas_.end_group(is_usable ? 1.0 : 0.35);
+    if (!is_lit) return;
+    const double rim = 0.15 * unit_;
+    const Area inside{area.x + rim, area.y + rim, area.width - 2.0 * rim, area.height - 2.0 * rim};
+    canvas_.line(outline_of(inside), {colours_.lit, (use_.is_editing() ? 0.3 : 0.15) * unit_, {}});
   }
 
   void paint_separator(const Area& area) {
@@ -173,13 +335,22 @@ class SheetPainter {
 
   void paint_ground(const LaidWidget& laid, const Area& area, bool is_lit) {
     if (laid.sector) return paint_sector(*laid.sector, is_lit);
-    if (is_lit) canvas_.fill(area, colours_.lit);
-    if (!stands_alone()) return;
+    if (is_lit) {
+      canvas_.fill(area, colours_.lit);
+    } else if (is_chosen(*laid.widget)) {
+      canvas_.fill(area, colours_.title);
+    }
+    if (laid.widget->kind == WidgetKind::Page) return paint_header(*laid.widget, area);
+    if (!laid.stands_alone) return;
     const double width = (laid.widget->is_default ? 0.22 : 0.1) * unit_;
-    const std::array<Vector2, 5> border{Vector2(area.x, area.y), Vector2(area.right(), area.y),
-                                        Vector2(area.right(), area.bottom()), Vector2(area.x, area.bottom()),
-                                        Vector2(area.x, area.y)};
-    canvas_.line(border, {laid.widget->is_default ? colours_.lit : colours_.line, width, {}});
+    canvas_.line(outline_of(area), {laid.widget->is_default ? colours_.lit : colours_.line, width, {}});
+  }
+
+  /// The header of the page that shows has a line below it.
+  void paint_header(const Widget& page, const Area& area) {
+    canvas_.line(outline_of(area), {colours_.line, 0.1 * unit_, {}});
+    if (is_chosen(page))
+      canvas_.fill({area.x, area.bottom() - 0.25 * unit_, area.width, 0.25 * unit_}, colours_.lit);
   }
 
   void paint_sector(const interaction::Sector& sector, bool is_lit) {
@@ -251,7 +422,6 @@ class SheetPainter {
   const Colours& colours_;
   Canvas& canvas_;
   double unit_;  // mm, height of a capital letter
-  bool marks_ = false, icons_ = false;
 };
 
 /// Distance (m) from a rectangle with round corners, < 0 inside.

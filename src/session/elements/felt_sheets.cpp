@@ -29,12 +29,14 @@ void FeltSheets::close(Sheet& sheet, double time) {
 void FeltSheets::bring_up_to_date(const interaction::ElementUse& use) {
   const auto& laid = use.layout().sheets;
   const double size = use.frame().size;
+  const bool has_moved = std::exchange(revision_, use.layout_revision()) != use.layout_revision();
+  outdated_ = outdated_ || has_moved;
   std::vector<interaction::FeltSheet> felt;
   for (std::size_t i = 0; i < laid.size(); ++i) {
     Sheet* sheet = open_sheet(laid[i].opened_by);
     const bool is_new = sheet == nullptr;
     if (is_new || outdated_ || sheet->effect.panel->size != size) {
-      if (felt.empty()) felt = interaction::feel_of(use.element(), use.layout(), use.frame());
+      if (felt.empty()) felt = interaction::feel_of(use.element(), use.layout(), use.frame(), use.settings());
       if (is_new) {
         sheet = &sheets_.emplace_back(Sheet{laid[i].opened_by});
         sheet->effect.id = next_id_++;

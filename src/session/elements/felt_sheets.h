@@ -38,6 +38,7 @@ class FeltSheets {
   std::vector<haptics::PlacedEffect> effects_;
   std::uint64_t next_id_;
   bool outdated_ = false;
+  std::uint64_t revision_ = 0;  // of the layout that is felt
 };
 
 }  // namespace icome::session

@@ -36,6 +36,12 @@ void add_settings(const std::vector<Widget>& widgets, const ElementUse& use, wor
     hasher.add(widget.enabled);
     hasher.add(use.is_checked(widget));
     hasher.add(use.value_of(widget));
+    const interaction::Hsv& colour = use.settings().of(widget).colour;
+    hasher.add(colour.hue);
+    hasher.add(colour.saturation);
+    hasher.add(colour.value);
+    const Widget* const chosen = use.settings().of(widget).chosen;
+    hasher.add(chosen != nullptr ? std::string_view(chosen->name) : std::string_view());
     add_settings(widget.widgets, use, hasher);
   }
 }
@@ -61,8 +67,9 @@ void SceneMenu::close() {
 
 std::optional<MenuChoice> SceneMenu::told(const std::optional<Choice>& choice) const {
   if (!choice) return std::nullopt;
-  return MenuChoice{*choice->widget, choice->by, use_->is_checked(*choice->widget),
-                    use_->value_of(*choice->widget)};
+  const Widget& widget = *choice->widget;
+  return MenuChoice{widget, choice->by, use_->is_checked(widget), use_->value_of(widget),
+                    use_->settings().call_of(widget)};
 }
 
 /// The hand that uses the menu after these ticks.
@@ -83,7 +90,7 @@ std::vector<MenuChoice> SceneMenu::take(std::span<const MenuTick> ticks, double 
   std::vector<MenuChoice> chosen;
   if (const auto hand = nearest_hand(ticks); hand != hand_) {
     hand_ = hand;
-    use_->change_pointer();
+    if (auto choice = told(use_->change_pointer())) chosen.push_back(std::move(*choice));
   }
   if (hand_) attended_ = false;
   for (const MenuTick& tick : ticks)
@@ -93,29 +100,40 @@ std::vector<MenuChoice> SceneMenu::take(std::span<const MenuTick> ticks, double 
   return chosen;
 }
 
-std::optional<base::Vector3> SceneMenu::met_by(const interaction::Ray& way) const {
+std::optional<base::Vector3> SceneMenu::plane_met_by(const interaction::Ray& way) const {
   const interaction::ElementFrame& frame = use_->frame();
   const double along = way.direction.dot(frame.normal());
   if (!(std::abs(along) > 1e-9)) return std::nullopt;
   const double distance = (frame.centre - way.origin).dot(frame.normal()) / along;
   if (!(distance > 0.0)) return std::nullopt;
-  const base::Vector3 place = way.origin + distance * way.direction;
-  const base::Vector2 on_plane = frame.projected(place);
+  return way.origin + distance * way.direction;
+}
+
+std::optional<base::Vector3> SceneMenu::met_by(const interaction::Ray& way) const {
+  const auto place = plane_met_by(way);
+  if (!place) return std::nullopt;
+  const base::Vector2 on_plane = use_->frame().projected(*place);
   const bool is_on_sheet = std::ranges::any_of(use_->layout().sheets, [&](const LaidSheet& sheet) {
     return ((on_plane - sheet.centre).cwiseAbs().array() <= sheet.half.array()).all();
   });
-  return is_on_sheet ? std::optional(place) : std::nullopt;
+  return is_on_sheet ? place : std::nullopt;
 }
 
 std::optional<MenuChoice> SceneMenu::point_by_mouse(const interaction::Ray& way, bool button, double now) {
-  const auto met = met_by(way);
-  if (!met) return std::nullopt;
   if (is_looked_at()) {
+    if (!met_by(way)) return std::nullopt;
     attended_ = true;
     return told(use_->look(way, presses_ = button, now));
   }
+  const bool holds = is_held_by_mouse();
+  const auto met = holds ? plane_met_by(way) : met_by(way);
+  if (!met) {
+    if (!holds || button) return std::nullopt;
+    presses_ = false;
+    return told(use_->change_pointer());
+  }
   const interaction::ElementFrame& frame = use_->frame();
-  if (!std::exchange(attended_, true)) use_->change_pointer();
+  if (!std::exchange(attended_, true)) (void)use_->change_pointer();
   hand_.reset();
   const double before = kMouseShare * element_.choosing.near * frame.size;
   interaction::ElementPointer at{now, *met + before * frame.normal(), false};
@@ -151,6 +169,14 @@ std::optional<MenuChoice> SceneMenu::press(interaction::ElementKey key) {
   return told(use_->press(key));
 }
 
+bool SceneMenu::type(char letter) {
+  if (!use_->type(letter)) return false;
+  attended_ = true;
+  return true;
+}
+
+std::optional<MenuChoice> SceneMenu::turn_wheel(double notches) { return told(use_->turn_wheel(notches)); }
+
 std::optional<MenuChoice> SceneMenu::choose(std::string_view name_or_text) {
   return told(use_->choose(name_or_text));
 }
@@ -168,6 +194,15 @@ std::uint64_t SceneMenu::looks(ElementTheme theme) const {
   for (const Widget* const open : use_->open()) hasher.add(std::string_view(open->name));
   hasher.add(use_->lit() ? std::string_view(use_->lit()->name) : std::string_view());
   add_settings(element_.widgets, *use_, hasher);
+  hasher.add(use_->layout_revision());
+  if (const auto handle = use_->lit_handle()) {
+    hasher.add(handle->kind);
+    hasher.add(handle->of != nullptr ? std::string_view(handle->of->name) : std::string_view());
+  }
+  hasher.add(use_->is_editing());
+  hasher.add(std::string_view(use_->trouble()));
+  if (const Widget* const lit = use_->lit())
+    if (const std::string* const typed = use_->typed_into(*lit)) hasher.add(std::string_view(*typed));
   return hasher.value();
 }
 

@@ -17,8 +17,9 @@ namespace icome::session {
 struct MenuChoice {
   interaction::Widget widget;
   interaction::ChosenBy by = interaction::ChosenBy::Click;
-  bool checked = false;  // of Check and Radio
-  double value = 0.0;    // of Slider
+  bool checked = false;                  // of Check and Radio
+  double value = 0.0;                    // of Slider and Number
+  interaction::OperationCall call = {};  // what it does, with its value
 };
 
 /// A hand at one moment, in the frame of the stage.
@@ -49,15 +50,21 @@ class SceneMenu {
   /// menu, as long as it stays near.
   std::vector<MenuChoice> take(std::span<const MenuTick> ticks, double now);
   /// The mouse points along that way: it counts as a pointer close to the plane. Nothing is chosen while its
-  /// way meets no sheet; see met_by().
+  /// way meets no sheet; see met_by(). What it holds it keeps beside the sheets, too.
   std::optional<MenuChoice> point_by_mouse(const interaction::Ray& way, bool button, double now);
   /// The place where a way meets a sheet, stage frame; nothing: it meets none.
   std::optional<base::Vector3> met_by(const interaction::Ray& way) const;
+  /// Does the mouse hold something, wherever it points?
+  bool is_held_by_mouse() const { return presses_ && attended_ && use_->is_holding(); }
   /// As take(), for an element that is chosen from by looking: the eye looks along that way, and the first
   /// hand that presses its button holds it. A mouse that has pointed at the element stands for the eye until
   /// the eye looks elsewhere.
   std::vector<MenuChoice> look(const interaction::Ray& gaze, std::span<const MenuTick> ticks, double now);
   std::optional<MenuChoice> press(interaction::ElementKey key);
+  /// ElementUse::type().
+  bool type(char letter);
+  /// ElementUse::turn_wheel().
+  std::optional<MenuChoice> turn_wheel(double notches);
   std::optional<MenuChoice> choose(std::string_view name_or_text);
   /// Enables the widgets of the names in question, or not; others stay as they are.
   void enable(const std::function<std::optional<bool>(const interaction::Widget&)>& is_enabled);
@@ -72,6 +79,7 @@ class SceneMenu {
   const std::vector<render::SceneOverlay::Panel>& panels() const { return panels_; }
 
  private:
+  std::optional<base::Vector3> plane_met_by(const interaction::Ray& way) const;
   std::uint64_t looks(ElementTheme theme) const;
   std::optional<std::size_t> nearest_hand(std::span<const MenuTick> ticks) const;
   std::optional<MenuChoice> told(const std::optional<interaction::Choice>& choice) const;

@@ -21,18 +21,25 @@ std::size_t spoken_language(const interaction::Element& element) {
   return found == element.languages.end() ? 0 : std::size_t(found - element.languages.begin());
 }
 
+void add_words(const Widget& widget, std::size_t language, std::vector<MenuWords>& words) {
+  if (widget.can_be_chosen() && widget.enabled && language < widget.text.size())
+    words.push_back({widget.text[language], widget.name, widget.opens_menu()});
+}
+
+/// Rows that are not seen and other pages too: they come into sight when they are chosen.
 void add_items(const std::vector<Widget>& widgets, std::size_t language, std::vector<MenuWords>& words) {
-  for (const Widget& widget : widgets)
-    if (widget.can_be_chosen() && widget.enabled && language < widget.text.size())
-      words.push_back({widget.text[language], widget.name, !widget.widgets.empty()});
+  for (const Widget& widget : widgets) {
+    add_words(widget, language, words);
+    if (widget.enabled && !widget.opens_menu()) add_items(widget.widgets, language, words);
+  }
 }
 
 /// All that open others, at any depth.
 void add_submenus(const std::vector<Widget>& widgets, std::size_t language, std::vector<MenuWords>& words) {
-  std::vector<MenuWords> items;
-  add_items(widgets, language, items);
-  std::ranges::copy_if(items, std::back_inserter(words), &MenuWords::opens);
-  for (const Widget& widget : widgets) add_submenus(widget.widgets, language, words);
+  for (const Widget& widget : widgets) {
+    if (widget.opens_menu()) add_words(widget, language, words);
+    add_submenus(widget.widgets, language, words);
+  }
 }
 
 }  // namespace

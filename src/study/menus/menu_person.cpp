@@ -52,7 +52,8 @@ class MenuRunning {
       phase_[axis] = random_.uniform(0.0, 2.0 * std::numbers::pi);
       hertz_[axis] = person_.tremor_hz * random_.uniform(0.9, 1.1);
     }
-    const interaction::FeltSheet felt = interaction::feel_of(element, use_.layout(), use_.frame()).front();
+    const interaction::FeltSheet felt =
+        interaction::feel_of(element, use_.layout(), use_.frame(), use_.settings()).front();
     haptics::PlacedEffect effect;
     effect.id = 1;
     effect.world_from_effect = felt.world_from_sheet;

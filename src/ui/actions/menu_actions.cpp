@@ -25,6 +25,9 @@ constexpr const char* kMenuTopic = "menu";
 MenuActions::MenuActions(session::Session& session, QSettings& settings, Hooks hooks, QWidget& window)
     : session_(session), settings_(settings), hooks_(std::move(hooks)), window_(window) {
   session_.menu().on_choice([this](const session::MenuChoice& choice) { hear(choice); });
+  session_.menu().on_trouble([this](const std::string& what) {
+    hooks_.tell({.weight = Note::Weight::Passing, .text = what, .topic = kMenuTopic});
+  });
   session_.on_selection([this] { refresh(); });
 }
 
@@ -73,17 +76,18 @@ QAction* MenuActions::command_of(const Widget& widget) const {
                                 : window_.findChild<QAction*>(QString::fromStdString(widget.command));
 }
 
-/// Items without anything to do are as their file says.
+/// Items without anything to do are as their file says. A menu must be open.
 std::optional<bool> MenuActions::is_possible(const Widget& widget) const {
   if (!widget.command.empty()) {
     const QAction* const command = command_of(widget);
     return command != nullptr && command->isEnabled();
   }
-  if (widget.operation.empty()) return std::nullopt;
-  const auto operation = interaction::find_operation(widget.operation);
+  const interaction::OperationCall call = session_.menu().use()->settings().call_of(widget);
+  if (call.operation.empty()) return std::nullopt;
+  const auto operation = interaction::find_operation(call.operation);
   if (!operation) return false;
-  return asks_for_values(**operation, widget.with) ||
-         completed_fields(**operation, widget.with, session_.selection()).has_value();
+  return asks_for_values(**operation, call.arguments) ||
+         completed_fields(**operation, call.arguments, session_.selection()).has_value();
 }
 
 /// Items are ticked as the commands are that they do.
@@ -117,16 +121,16 @@ void MenuActions::refresh() {
 void MenuActions::hear(const session::MenuChoice& choice) {
   if (pops_up_ && choice.widget.widgets.empty() && choice.widget.kind == WidgetKind::Item)
     session_.menu().close();
-  perform(choice.widget);
+  perform(choice);
   refresh();
 }
 
-void MenuActions::perform(const Widget& widget) {
-  if (QAction* const command = command_of(widget)) return command->trigger();
-  if (widget.operation.empty()) return;
-  const auto operation = interaction::find_operation(widget.operation);
+void MenuActions::perform(const session::MenuChoice& choice) {
+  if (QAction* const command = command_of(choice.widget)) return command->trigger();
+  if (choice.call.operation.empty()) return;
+  const auto operation = interaction::find_operation(choice.call.operation);
   if (!operation) return;
-  const auto fields = completed_fields(**operation, widget.with, session_.selection());
+  const auto fields = completed_fields(**operation, choice.call.arguments, session_.selection());
   if (!fields) return hooks_.ask(**operation);
   if (!hooks_.begin()) return;
   const auto done = perform_operation(session_, **operation, *fields);

@@ -43,7 +43,7 @@ class MenuActions {
   void take_ticks_over(std::vector<interaction::Widget>& widgets) const;
   void choose_file();
   void hear(const session::MenuChoice& choice);
-  void perform(const interaction::Widget& widget);
+  void perform(const session::MenuChoice& choice);
   QAction* command_of(const interaction::Widget& widget) const;
 
   session::Session& session_;

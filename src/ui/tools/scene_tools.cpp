@@ -112,6 +112,7 @@ void SceneTools::double_click(const SceneInput& input) {
 }
 
 void SceneTools::wheel(const SceneInput& input, double notches) {
+  if (session_.menu().turn_wheel(input.ray(session_.view().now()), notches)) return;
   if (tool_ == Tool::Touch && (touch_tool_.pressing() || touch_tool_.goes_freely())) {
     touch_tool_.turn_wheel(notches);
   } else if (!stays_) {
@@ -178,18 +179,35 @@ void SceneTools::notice_menu_buttons() {
   }
 }
 
+/// The letter of a key that a number is typed with; 0: it is none.
+char SceneTools::typed_letter(int key) {
+  if (key >= Qt::Key_0 && key <= Qt::Key_9) return char('0' + key - Qt::Key_0);
+  if (key == Qt::Key_Minus || key == Qt::Key_Plus) return key == Qt::Key_Minus ? '-' : '+';
+  return key == Qt::Key_Period || key == Qt::Key_Comma ? '.' : '\0';
+}
+
+bool SceneTools::takes_key(int key, Qt::KeyboardModifiers modifiers) const {
+  if (modifiers & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier)) return false;
+  const auto* const menu = session_.menu().use();
+  const auto* const lit = menu != nullptr ? menu->lit() : nullptr;
+  if (lit == nullptr || lit->kind != interaction::WidgetKind::Number) return false;
+  return key == Qt::Key_Backspace || typed_letter(key) != '\0';
+}
+
 /// A key for the haptic menu while it is open.
 bool SceneTools::menu_key(int key) {
   using interaction::ElementKey;
   static constexpr std::pair<int, ElementKey> kKeys[] = {
-      {Qt::Key_Up, ElementKey::Up},        {Qt::Key_Down, ElementKey::Down},
-      {Qt::Key_Left, ElementKey::Left},    {Qt::Key_Right, ElementKey::Right},
-      {Qt::Key_Return, ElementKey::Enter}, {Qt::Key_Enter, ElementKey::Enter},
-      {Qt::Key_Escape, ElementKey::Escape}};
+      {Qt::Key_Up, ElementKey::Up},         {Qt::Key_Down, ElementKey::Down},
+      {Qt::Key_Left, ElementKey::Left},     {Qt::Key_Right, ElementKey::Right},
+      {Qt::Key_Return, ElementKey::Enter},  {Qt::Key_Enter, ElementKey::Enter},
+      {Qt::Key_Escape, ElementKey::Escape}, {Qt::Key_Backspace, ElementKey::Backspace},
+      {Qt::Key_PageUp, ElementKey::PageUp}, {Qt::Key_PageDown, ElementKey::PageDown}};
+  if (const char letter = typed_letter(key); letter != '\0' && session_.menu().type(letter)) return true;
   const auto found = std::ranges::find(kKeys, key, &std::pair<int, ElementKey>::first);
   if (found == std::end(kKeys)) return false;
   session::SessionMenu& menu = session_.menu();
-  const bool backs_out = !menu.use()->open().empty() ||
+  const bool backs_out = !menu.use()->open().empty() || menu.use()->is_editing() ||
                          std::ranges::any_of(menu.use()->element().widgets, &interaction::Widget::is_cancel);
   found->second == ElementKey::Escape && !backs_out ? menu.close() : menu.press(found->second);
   return true;

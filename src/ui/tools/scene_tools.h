@@ -51,6 +51,8 @@ class SceneTools {
   bool pen(const SceneInput& input, double pressure);
   bool key_press(int key, Qt::KeyboardModifiers modifiers, bool repeats);
   bool key_release(int key);
+  /// Does the key belong here though it is the shortcut of an action, as it types into the haptic menu?
+  bool takes_key(int key, Qt::KeyboardModifiers modifiers) const;
   /// The keyboard's focus goes elsewhere: releases of keys will not be reported.
   void forget_keys();
   /// The mouse has left the scene.
@@ -79,6 +81,7 @@ class SceneTools {
   bool escape();
   bool point_at_menu(const SceneInput& input);
   bool menu_key(int key);
+  static char typed_letter(int key);
   double distance_before_things(const SceneInput& at) const;
   void ask_for_menu();
   void notice_menu_buttons();

@@ -81,7 +81,8 @@ void SceneView::show_cursor() {
 }
 
 bool SceneView::eventFilter(QObject* of, QEvent* event) {
-  const bool key = event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease;
+  const bool key = event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease ||
+                   event->type() == QEvent::ShortcutOverride;
   if (!key || of != window() || !has_keyboard()) return QWidget::eventFilter(of, event);
   // The window manager gives the keyboard to the whole window if the scene had it before.
   QCoreApplication::sendEvent(scene_, event);

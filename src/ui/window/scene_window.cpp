@@ -74,6 +74,11 @@ bool SceneWindow::event(QEvent* event) {
     case QEvent::DragMove:
     case QEvent::Drop:
       return offered_(static_cast<QDropEvent&>(*event));
+    case QEvent::ShortcutOverride: {
+      const auto* const key = static_cast<QKeyEvent*>(event);
+      event->setAccepted(tools_.takes_key(key->key(), key->modifiers()));
+      return event->isAccepted();
+    }
     case QEvent::DragLeave:
       tools_.leave();
       break;

@@ -33,6 +33,12 @@ PanelSettings random_panel(base::Random& random) {
     target.ring_spacing = random.uniform(0.002, 0.005);
     target.detent = random.uniform(0.0, 0.5);
     target.push_depth = 0.003;
+    target.shape = PanelTarget::Shape(random.index(3));
+    if (target.shape != PanelTarget::Shape::Rectangle) {
+      target.half = Vector2::Constant(random.uniform(0.006, 0.025));
+      target.inner = random.uniform(0.5, 0.8) * target.half.x();
+    }
+    if (target.shape == PanelTarget::Shape::Triangle) target.well = 0.0;
     panel.targets.push_back(target);
   }
   return panel;
@@ -70,6 +76,71 @@ TEST(Panel, SlopesOfTheGroundAreThoseOfItsHeights) {
       EXPECT_NEAR(here.well_slope[axis], (ahead.well - behind.well) / (2.0 * kStep), 1e-4);
     }
   }
+}
+
+// By the distance to the border, measured along many ways: floors are flat but for their flanks.
+TEST(Panel, RingsAndTrianglesAreWhereTheirBordersAre) {
+  base::Random random(11);
+  for (int i = 0; i < 200; ++i) {
+    PanelTarget target;
+    target.shape = i % 2 == 0 ? PanelTarget::Shape::Ring : PanelTarget::Shape::Triangle;
+    target.centre = {random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01)};
+    target.half = Vector2::Constant(random.uniform(0.015, 0.03));
+    target.inner = 0.7 * target.half.x();
+    target.recess = 0.0006;
+    PanelSettings settings;
+    settings.targets = {target};
+    const Panel panel(settings);
+    const auto is_inside = [&](const Vector2& place) {
+      const Vector2 offset = place - target.centre;
+      const double r = offset.norm(), outer = target.half.x();
+      if (target.shape == PanelTarget::Shape::Ring) return r > target.inner && r < outer;
+      // Its lower side is level; the other two run from there to the top at 60 degrees.
+      const double up = offset.y() + 0.5 * outer;
+      return up > 0.0 && up < 1.5 * outer - std::sqrt(3.0) * std::abs(offset.x());
+    };
+    for (int k = 0; k < 300; ++k) {
+      const Vector2 place = target.centre + 1.1 * target.half.x() *
+                                                Vector2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+      constexpr double kFlanks = 0.00151;  // m
+      bool all = true, none = true;
+      for (int way = 0; way < 64; ++way) {
+        const double angle = 0.0982 * way;
+        const bool inside = is_inside(place + kFlanks * Vector2(std::cos(angle), std::sin(angle)));
+        all = all && inside;
+        none = none && !inside;
+      }
+      const double height = panel.ground_at(place).height;
+      if (all && is_inside(place)) {
+        EXPECT_NEAR(height, -target.recess, 1e-6);
+      }
+      if (!is_inside(place)) {
+        EXPECT_EQ(height, 0.0);
+      }
+    }
+  }
+}
+
+TEST(Panel, TheWellOfARingDrawsToTheCircleInItsMiddle) {
+  PanelTarget ring;
+  ring.shape = PanelTarget::Shape::Ring;
+  ring.half = {0.03, 0.03};
+  ring.inner = 0.022;
+  ring.well = 0.4;
+  PanelSettings settings;
+  settings.targets = {ring};
+  const Panel panel(settings);
+  double strongest = 0.0;
+  for (double angle = 0.0; angle < 6.28; angle += 0.1) {
+    const Vector2 out(std::cos(angle), std::sin(angle));
+    EXPECT_NEAR(panel.ground_at(0.026 * out).well_slope.norm(), 0.0, 1e-12);
+    for (double r = 0.021; r < 0.031; r += 0.0001) {
+      const double outward = panel.ground_at(r * out).well_slope.dot(out);
+      EXPECT_LE((r - 0.026) * outward, 0.0);
+      strongest = std::max(strongest, std::abs(outward));
+    }
+  }
+  EXPECT_NEAR(strongest, ring.well, 0.01);
 }
 
 // Without friction and with a tip that creeps, all its force is that of a potential: what a way round gives

@@ -388,5 +388,45 @@ TEST(EffectFeed, TheServoAllocatesAndLocksNothingWhileEffectsChange) {
   EXPECT_EQ(guard.allocations() + guard.frees() + guard.locks(), 0U) << ticks << " ticks";
 }
 
+// A picker of colours whose hue is turned, again and again, under the tip.
+TEST(EffectFeed, TheServoAllocatesAndLocksNothingOnAPanelThatChanges) {
+  ScriptedDevice device;
+  Servo servo(device, {});
+  std::atomic<bool> ended = false;
+  std::thread main([&] {
+    for (int i = 0; i < 2000; ++i) {
+      PanelSettings panel;
+      PanelTarget ring, triangle, hue;
+      ring.shape = PanelTarget::Shape::Ring;
+      ring.half = {0.03, 0.03};
+      ring.inner = 0.022;
+      ring.well = 0.2;
+      triangle.shape = PanelTarget::Shape::Triangle;
+      triangle.half = {0.02, 0.02};
+      ring.recess = triangle.recess = 0.0006;
+      hue.centre = 0.026 * Vector2(std::sin(0.01 * i), std::cos(0.01 * i));
+      hue.half = {0.004, 0.004};
+      hue.well = 0.4;
+      panel.targets = {ring, triangle, hue};
+      PlacedEffect effect;
+      effect.id = 1;
+      effect.panel = std::make_shared<const PanelSettings>(std::move(panel));
+      servo.publish_effects({effect});
+    }
+    ended = true;
+  });
+  realtime::RealtimeGuard guard;
+  int ticks = 0;
+  for (; !ended || ticks < 100; ++ticks) {
+    device.position = {0.026 * std::sin(0.003 * ticks), 0.026 * std::cos(0.002 * ticks), -0.001};
+    servo.tick(1e-3);
+    ASSERT_TRUE(device.force.allFinite());
+  }
+  guard.stop();
+  main.join();
+  if (!realtime::RealtimeGuard::available()) GTEST_SKIP() << "the sanitizer counts for itself";
+  EXPECT_EQ(guard.allocations() + guard.frees() + guard.locks(), 0U) << ticks << " ticks";
+}
+
 }  // namespace
 }  // namespace icome::haptics

@@ -5,12 +5,10 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "interaction/elements/element_samples.h"
+#include "interaction/elements/element_hand.h"
 
 namespace icome::interaction {
 namespace {
-
-using base::Vector3;
 
 constexpr const char* kMenu =
     "languages = [\"en\", \"nl\"]\ncentre = [0.1, 0.2, -0.3]\nturn_deg = 40\n"
@@ -23,57 +21,8 @@ constexpr const char* kMenu =
     "[[item]]\nname = \"B\"\nkind = \"radio\"\ngroup = \"g\"\n"
     "[[item]]\nname = \"Size\"\nkind = \"slider\"\nleast = 10\nmost = 20\nstep = 2\n";
 
-/// Moves a tip over an element in ticks of a millisecond.
-class Hand {
- public:
-  explicit Hand(ElementUse& use) : use_(use) {}
-
-  /// Where a widget is, that far in front of the plane.
-  Vector3 at(std::string_view name, double front) const {
-    const Widget* const widget = find_widget(use_.element().widgets, name);
-    for (const LaidWidget& laid : use_.layout().widgets)
-      if (laid.widget == widget) return use_.frame().in_world(laid.centre) + front * use_.frame().normal();
-    return Vector3::Constant(std::nan(""));
-  }
-
-  /// The names that the way chooses, with blanks between.
-  std::string move(const Vector3& to, double seconds, bool button = false) {
-    const Vector3 from = tip_;
-    const int ticks = std::max(1, int(seconds * 1000.0));
-    std::string chosen;
-    for (int i = 1; i <= ticks; ++i) {
-      tip_ = from + (to - from) * (double(i) / ticks);
-      time_ += 0.001;
-      if (const auto choice = use_.point({time_, tip_, button}))
-        chosen += (chosen.empty() ? "" : " ") + choice->widget->name;
-    }
-    return chosen;
-  }
-  std::string push(std::string_view name) {
-    std::string chosen = move(at(name, 0.01), 0.1);
-    chosen += move(at(name, -0.006), 0.2);
-    const Vector3 back = tip_ + 0.016 * use_.frame().normal();
-    return chosen + move(back, 0.1);
-  }
-  std::string click(std::string_view name) {
-    std::string chosen = move(at(name, 0.01), 0.1);
-    chosen += move(tip_, 0.01, true);
-    return chosen + move(tip_, 0.01);
-  }
-  const Vector3& tip() const { return tip_; }
-
- private:
-  ElementUse& use_;
-  Vector3 tip_ = Vector3(5.0, 5.0, 5.0);
-  double time_ = 0.0;
-};
-
-struct Fixture {
-  explicit Fixture(const std::string& toml = kMenu)
-      : element(element_of(toml)), use(element, 0, even_letters()), hand(use) {}
-  Element element;
-  ElementUse use;
-  Hand hand;
+struct Fixture : UsedElement {
+  explicit Fixture(const std::string& toml = kMenu) : UsedElement(toml) {}
 };
 
 TEST(ElementUse, APointerThatRestsLeavesTheLightToTheKeys) {

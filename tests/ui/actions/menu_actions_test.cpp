@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "devices/simulated/simulated_device.h"
+#include "places.h"
 #include "ui/window_test.h"
 #include "world/shape/mesh_geometry.h"
 #include "world/shape/solid_geometry.h"
@@ -40,20 +41,37 @@ class MenuActionsTest : public WindowTest {
   /// Where a widget of the open menu is in the scene's window.
   QPointF pixel(const char* name) {
     const auto& use = *session().menu().use();
-    for (const interaction::LaidWidget& it : use.layout().widgets) {
-      if (it.widget->name != name) continue;
-      const interaction::View& view = session().view().now();
-      const Vector3 seen = view.world_from_eye.inverse() * use.frame().in_world(it.centre);
-      const QSizeF size = mouse_.size();
-      const double scale =
-          0.5 * std::min(size.width(), size.height()) / (std::tan(0.5 * view.field) * -seen.z());
-      return {0.5 * size.width() + scale * seen.x(), 0.5 * size.height() - scale * seen.y()};
-    }
+    for (const interaction::LaidWidget& it : use.layout().widgets)
+      if (it.widget->name == name) return pixel_of(it.centre);
     ADD_FAILURE() << name << " is not to be seen";
     return {};
   }
-  void click(const char* name) {
-    const QPointF at = pixel(name);
+  /// The same of a place of its plane.
+  QPointF pixel_of(const base::Vector2& place) {
+    const interaction::View& view = session().view().now();
+    const Vector3 seen = view.world_from_eye.inverse() * session().menu().use()->frame().in_world(place);
+    const QSizeF size = mouse_.size();
+    const double scale =
+        0.5 * std::min(size.width(), size.height()) / (std::tan(0.5 * view.field) * -seen.z());
+    return {0.5 * size.width() + scale * seen.x(), 0.5 * size.height() - scale * seen.y()};
+  }
+  void turn_wheel(QPointF at, int notches) {
+    QWheelEvent event(at, at, {}, {0, 120 * notches}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
+    QCoreApplication::sendEvent(&mouse_.window(), &event);
+  }
+  /// Opens the menu of a file of the project.
+  void open_menu(const char* name) {
+    const auto path = places::project_folder() / "data" / "menus" / name;
+    settings_.setValue("menu/file", QString::fromStdString(path.string()));
+    mouse_.move({300.0, 200.0});
+    key(Qt::Key_Space);
+    ASSERT_TRUE(is_open());
+  }
+  const interaction::Widget& widget(const char* name) {
+    return *interaction::find_widget(session().menu().use()->element().widgets, name);
+  }
+  void click(const char* name) { click_at(pixel(name)); }
+  void click_at(QPointF at) {
     mouse_.move(at);
     mouse_.press(at);
     mouse_.release(at);
@@ -166,6 +184,113 @@ TEST_F(MenuActionsTest, ADoubleClickOnItIsTwoClicks) {
   EXPECT_FALSE(is_ticked());
   until([] { return true; });
   EXPECT_EQ(session().view().now().world_from_eye.matrix(), before.world_from_eye.matrix());
+}
+
+TEST_F(MenuActionsTest, ARowOfAListIsChosenByMouseWheelKeysAndName) {
+  std::vector<std::string> made;
+  for (const int way : {0, 1, 2, 3}) {
+    open_menu("properties.toml");
+    if (way == 0) {
+      click("Shapes");
+      const interaction::View before = session().view().now();
+      const QPointF over = pixel("cylinder");
+      mouse_.move(over);
+      for (int i = 0; i < 3; ++i) turn_wheel(over, -1);
+      EXPECT_EQ(session().view().now().world_from_eye.matrix(), before.world_from_eye.matrix())
+          << "the wheel is the menu's";
+      click("polygon");
+    } else if (way == 1) {
+      click("Shapes");
+      for (int i = 0; i < 6; ++i) {
+        const interaction::LaidHandle* const more =
+            session().menu().use()->layout().handle(interaction::HandleKind::More, &widget("New shape"));
+        click_at(pixel_of(more->box.centre));
+      }
+      click("polygon");
+    } else if (way == 2) {
+      mouse_.move({5.0, 5.0});
+      key(Qt::Key_Down);
+      key(Qt::Key_Right);
+      key(Qt::Key_Right);
+      for (int i = 0; i < 10; ++i) key(Qt::Key_Down);
+      EXPECT_EQ(session().menu().use()->lit()->name, "polygon");
+      key(Qt::Key_Return);
+    } else {
+      EXPECT_TRUE(session().menu().choose("polygon"));
+    }
+    EXPECT_TRUE(until([&] { return world().roots().size() == std::size_t(way) + 1; })) << way;
+    made.push_back(world().find(world().roots().back())->name);
+    EXPECT_TRUE(is_open()) << "a row is one of several";
+    session().menu().close();
+  }
+  for (const std::string& name : made) EXPECT_EQ(name.substr(0, 7), "polygon") << name;
+}
+
+TEST_F(MenuActionsTest, ThePickerColoursWhatIsSelectedByMouseAndKeys) {
+  const ObjectId box = add_box(session());
+  session().select({box});
+  open_menu("properties.toml");
+  const auto& use = *session().menu().use();
+  const interaction::Widget& picker = widget("Any colour");
+  const auto wheel = interaction::wheel_of(*use.layout().widget(picker), use.element().text_height);
+  // Held at the ring, and let go beside the menu, two thirds round.
+  const QPointF from = pixel_of(wheel.place_of_hue(0.5)),
+                to = pixel_of(wheel.centre + base::Vector2(-0.9, -0.5196));
+  mouse_.move(from);
+  mouse_.press(from);
+  mouse_.move(0.5 * (from + to));
+  EXPECT_FALSE(colour_of(box)) << "not before it is let go";
+  mouse_.move(to);
+  mouse_.release(to);
+  ASSERT_TRUE(until([&] { return colour_of(box).has_value(); }));
+  const double hue = interaction::hsv_of(*colour_of(box)).hue;
+  EXPECT_NEAR(hue, 2.0 * 2.0 * M_PI / 3.0, 0.05);
+  EXPECT_FALSE(use.is_holding());
+  EXPECT_TRUE(is_open());
+  const auto before = *colour_of(box);
+  key(Qt::Key_Right);
+  key(Qt::Key_Right);
+  key(Qt::Key_Return);
+  ASSERT_TRUE(until([&] { return *colour_of(box) != before; }));
+  EXPECT_NEAR(interaction::hsv_of(*colour_of(box)).hue - hue, M_PI / 18.0, 0.02);
+  session().menu().close();
+}
+
+TEST_F(MenuActionsTest, ANumberIsTypedSteppedAndHeld) {
+  const ObjectId box = add_box(session());
+  session().select({box});
+  open_menu("properties.toml");
+  ASSERT_TRUE(session().menu().choose("Size"));
+  const auto size = [&] { return world_from_object(world(), box).linear().col(0).norm(); };
+  mouse_.move(pixel("Times"));
+  EXPECT_EQ(session().menu().use()->lit()->name, "Times");
+  for (const int digit : {Qt::Key_5, Qt::Key_0, Qt::Key_0, Qt::Key_0}) {
+    QKeyEvent asked(QEvent::ShortcutOverride, digit, Qt::NoModifier);
+    asked.ignore();
+    QCoreApplication::sendEvent(&mouse_.window(), &asked);
+    EXPECT_TRUE(asked.isAccepted()) << "a digit is no view now";
+    key(digit);
+  }
+  key(Qt::Key_Return);
+  until([] { return true; });
+  EXPECT_NEAR(size(), 1.0, 1e-12) << "5000 % is too much";
+  EXPECT_NE(session().menu().use()->trouble().find("not between 1 and 1000 %"), std::string::npos);
+  key(Qt::Key_Backspace);
+  key(Qt::Key_Backspace);
+  key(Qt::Key_Return);
+  ASSERT_TRUE(until([&] { return std::abs(size() - 0.5) < 1e-9; }));
+  turn_wheel(pixel("Times"), 2);
+  ASSERT_TRUE(until([&] { return std::abs(size() - 0.6) < 1e-9; }));
+  const auto* const less =
+      session().menu().use()->layout().handle(interaction::HandleKind::Less, &widget("Times"));
+  const QPointF at = pixel_of(less->box.centre);
+  mouse_.move(at);
+  mouse_.press(at);
+  // Nothing but time passes.
+  ASSERT_TRUE(until([&] { return session().menu().use()->value_of(widget("Times")) < 45.0; }));
+  mouse_.release(at);
+  EXPECT_TRUE(until([&] { return size() < 0.45; }));
+  session().menu().close();
 }
 
 TEST_F(MenuActionsTest, WhatAnOperationLacksItsFormAsksFor) {
