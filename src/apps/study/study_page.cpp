@@ -59,6 +59,7 @@ std::string study_page(const study::StudyData& data, const study::Analysis& anal
   write_participants(page);
   write_results(page);
   write_correlations(page);
+  write_thesis_form(page);
   write_answers(page);
   write_hypotheses(page);
   write_checks(page);

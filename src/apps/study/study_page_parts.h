@@ -72,6 +72,7 @@ void write_design(StudyPage& page);
 void write_participants(StudyPage& page);
 void write_results(StudyPage& page);
 void write_correlations(StudyPage& page);
+void write_thesis_form(StudyPage& page);
 void write_answers(StudyPage& page);
 void write_hypotheses(StudyPage& page);
 void write_checks(StudyPage& page);

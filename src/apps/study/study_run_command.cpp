@@ -80,13 +80,19 @@ std::filesystem::path data_folder(const StudyOptions& options) {
                                                   options.simulate > 0 ? "simulated" : "data");
 }
 
-/// The scene files as they are now.
+/// The files of scenes and of their elements as they are now, each once.
 base::Result<std::vector<study::SceneFile>> scenes_of(const OpenedStudy& opened) {
-  std::vector<study::SceneFile> files;
+  std::vector<std::string> names;
   for (const study::TrialScene& scene : scenes_of_trials(opened.study)) {
-    auto bytes = io::read_bytes(opened.folder / scene.file, kLargestScene);
+    names.push_back(scene.file);
+    if (scene.element) names.push_back(scene.element->file);
+  }
+  std::vector<study::SceneFile> files;
+  for (const std::string& name : names) {
+    if (std::ranges::find(files, name, &study::SceneFile::file) != files.end()) continue;
+    auto bytes = io::read_bytes(opened.folder / name, kLargestScene);
     if (!bytes) return tl::unexpected(bytes.error());
-    files.push_back({scene.file, std::move(*bytes)});
+    files.push_back({name, std::move(*bytes)});
   }
   return files;
 }
