@@ -3,8 +3,8 @@
 
 namespace icome::study {
 
-/// The menu study with a menu that is made of things of the scene, a box for each colour, from which people choose
-/// as from any things.
+/// The menu study with a menu that is made of things of the scene, a box for each colour, from which people
+/// choose as from any things.
 class BoxMenuFolder {
  public:
   BoxMenuFolder() {

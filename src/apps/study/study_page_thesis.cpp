@@ -86,9 +86,9 @@ void write_quantities(StudyPage& page, const study::ThesisTable& results, const 
     for (const std::optional<double>& level : row.levels) cells.push_back(thesis_cell(level, row.total));
     cells.push_back(thesis_p(row.test));
     table.rows.push_back(std::move(cells));
-    const std::string note = row.test.result ? fmt::format("P: {}.", row.test.result->test)
-                                             : fmt::format("{}: no P, as {}", table.rows.back().front(),
-                                                           row.test.why);
+    const std::string note = row.test.result
+                                 ? fmt::format("P: {}.", row.test.result->test)
+                                 : fmt::format("{}: no P, as {}", table.rows.back().front(), row.test.why);
     if (std::ranges::find(table.notes, note) == table.notes.end()) table.notes.push_back(note);
   }
   if (!results.choices.empty()) table.notes.push_back(choices_note(study, results));
@@ -129,7 +129,8 @@ void write_thesis_form(StudyPage& page) {
   const bool several = page.data().study.independent.size() > 1;
   page.heading("In the form of the thesis");
   page.paragraph(
-      "As tables 6.1 to 6.5 of the thesis, to be compared with these: every trial counts as an observation of "
+      "As tables 6.1 to 6.5 of the thesis, to be compared with these: every trial counts as an observation "
+      "of "
       "its own. Trials of one person are not independent, so these P-values say more than the data do; they "
       "decide nothing. Figures 6.2 to 6.5 are those of the questions below.");
   for (std::size_t i = 0; i < tables.size(); ++i) {

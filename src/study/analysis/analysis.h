@@ -115,8 +115,8 @@ struct ChoiceCount {
   std::size_t choices = 0, wrong = 0;
 };
 
-/// A table in the form of 6.1, 6.2, 6.4 and 6.5 of the thesis: every trial is an observation of its own, as if
-/// it were another person's, and all factors are tested as if they were between people. Shown beside the
+/// A table in the form of 6.1, 6.2, 6.4 and 6.5 of the thesis: every trial is an observation of its own, as
+/// if it were another person's, and all factors are tested as if they were between people. Shown beside the
 /// tables of people's means to be compared with the thesis; decides nothing.
 struct ThesisTable {
   std::size_t factor = 0;  // of Study::independent

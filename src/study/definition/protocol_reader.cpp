@@ -8,10 +8,10 @@ namespace icome::study {
 namespace {
 
 constexpr int kMostTrials = 10000;
-constexpr double kLongest = 86400.0;  // s
-constexpr double kShortest = 0.001;   // s
-constexpr int kMostPoints = 101;      // of a rating scale
-constexpr double kLargest = 1e15;     // answer to a question for a number
+constexpr double kLongest = 86400.0;       // s
+constexpr double kShortest = 0.001;        // s
+constexpr int kMostPoints = 101;           // of a rating scale
+constexpr double kLargest = 1e15;          // answer to a question for a number
 constexpr double kFarthestElement = 10.0;  // m
 
 SceneElement read_scene_element(KeyReader& keys) {

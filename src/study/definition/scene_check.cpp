@@ -146,10 +146,10 @@ class SceneChecker {
   void check_languages(const TrialScene& scene, const StageElement& element) {
     for (const std::string& language : languages_lacking(element, study_))
       check_.warnings.push_back(
-          {scene.element->place, fmt::format("scene '{}': {} has no texts in '{}'; people who read that see "
-                                             "those in '{}'.",
-                                             scene.id, scene.element->file, language,
-                                             element.element->languages.front())});
+          {scene.element->place,
+           fmt::format("scene '{}': {} has no texts in '{}'; people who read that see "
+                       "those in '{}'.",
+                       scene.id, scene.element->file, language, element.element->languages.front())});
   }
 
   void check_shown(const TrialScene& scene, const world::World& world) {

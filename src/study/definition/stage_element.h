@@ -11,13 +11,14 @@ namespace icome::study {
 
 /// The haptic element of a scene, at its place on the stage and ready to be laid out.
 struct StageElement {
-  std::string id;                                        // as SceneElement::id
+  std::string id;                                       // as SceneElement::id
   std::shared_ptr<const interaction::Element> element;  // never null
   interaction::TextMeasure measure;
 };
 
-/// Reads the element of a scene; `folder` is that of the study file. Fails as interaction::read_element_file()
-/// does, for an element that does not lie in the world, and without the font of its text.
+/// Reads the element of a scene; `folder` is that of the study file. Fails as
+/// interaction::read_element_file() does, for an element that does not lie in the world, and without the font
+/// of its text.
 base::Result<StageElement> read_stage_element(const SceneElement& element,
                                               const std::filesystem::path& folder);
 

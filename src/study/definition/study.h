@@ -113,8 +113,8 @@ enum class OrderMethod : std::uint8_t { Full, LatinSquare, Random, Fixed };
 
 /// A haptic element (thesis 5.7.2) that lies in a scene: people choose from it as from the scene's objects.
 struct SceneElement {
-  std::string id;    // its widgets are called "id/name" by the task
-  std::string file;  // an element (docs/elements.md), beside the study file
+  std::string id;                            // its widgets are called "id/name" by the task
+  std::string file;                          // an element (docs/elements.md), beside the study file
   std::optional<base::Vector3> centre = {};  // m, stage frame; none: as its file has it
   std::optional<double> turn = {};           // rad, about the vertical; none: as its file has it
   Place place = {};
@@ -141,10 +141,11 @@ struct Task {
   bool head = true;                                    // the eye follows the head, where that is tracked
   base::Vector3 start = base::Vector3(0.0, 0.0, 0.1);  // m, stage frame: the start of the pointer
   // Where one of these is not given, that of the element counts or, of objects, the default of TrialGoal.
-  std::optional<double> near = {};      // m, the longest distance from the tip for a click
-  std::optional<double> depth = {};     // m, the depth of the tip for a push to count
-  std::optional<double> vicinity = {};  // m, from the target (or what is chosen from): approach becomes homing
-  double limit = 60.0;                  // s, after which a trial is ended
+  std::optional<double> near = {};   // m, the longest distance from the tip for a click
+  std::optional<double> depth = {};  // m, the depth of the tip for a push to count
+  std::optional<double> vicinity =
+      {};               // m, from the target (or what is chosen from): approach becomes homing
+  double limit = 60.0;  // s, after which a trial is ended
   Place place = {};
 };
 

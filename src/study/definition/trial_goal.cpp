@@ -78,8 +78,8 @@ void add_widgets(const TrialElement& element, const std::vector<interaction::Wid
     Thing thing;
     thing.name = fmt::format("{}/{}", element.id, widget.name);
     thing.target = is_meant(names.target, thing.name);
-    thing.wrong = !thing.target && widget.widgets.empty() &&
-                  (names.all_wrong || is_meant(names.wrong, thing.name));
+    thing.wrong =
+        !thing.target && widget.widgets.empty() && (names.all_wrong || is_meant(names.wrong, thing.name));
     thing.widget = &widget;
     things.push_back(std::move(thing));
     add_widgets(element, widget.widgets, names, things);
@@ -224,8 +224,7 @@ base::Result<TrialGoal> trial_goal(const Study& study, const Participant& partic
     thing.object = id;
     goal.things.push_back(std::move(thing));
   }
-  if (element != nullptr)
-    add_element(*element, task, study.languages[participant.language], meant, goal);
+  if (element != nullptr) add_element(*element, task, study.languages[participant.language], meant, goal);
   if (std::ranges::none_of(goal.things, &Thing::target))
     return tl::unexpected(no_target(meant.target, goal.things));
   for (const Thing& thing : goal.things)

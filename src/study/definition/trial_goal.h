@@ -16,7 +16,7 @@ struct Thing {
   base::Bounds bounds;  // m, stage frame; of a widget of a menu that is not open empty
   bool target = false;
   bool wrong = false;
-  world::ObjectId object = {};                   // of an object of the scene
+  world::ObjectId object = {};                  // of an object of the scene
   const interaction::Widget* widget = nullptr;  // of the goal's element; null: it is an object
 };
 

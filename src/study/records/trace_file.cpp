@@ -70,8 +70,8 @@ void add_sample(const Sample& sample, fmt::memory_buffer& table) {
       fmt::format_to(std::back_inserter(table), FMT_COMPILE("{}\t"), kNotAvailable);
     }
   }
-  fmt::format_to(std::back_inserter(table), FMT_COMPILE("{}\t{}\t{}\t{}\n"), sample.buttons,
-                 sample.touched, sample.lit, sample.chosen);
+  fmt::format_to(std::back_inserter(table), FMT_COMPILE("{}\t{}\t{}\t{}\n"), sample.buttons, sample.touched,
+                 sample.lit, sample.chosen);
 }
 
 }  // namespace

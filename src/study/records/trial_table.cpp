@@ -133,9 +133,8 @@ TrialList measured_trials(const StudyData& data, const DependentVariable& variab
         list.values.push_back(scale * measured_value(trial->measures, variable.from));
         for (std::size_t i = 0; i < list.levels.size(); ++i) {
           const IndependentVariable& factor = data.study.independent[i];
-          list.levels[i].push_back(factor.between
-                                       ? table.groups[row][place_of(table.between, factor)]
-                                       : table.columns[condition][place_of(table.within, factor)]);
+          list.levels[i].push_back(factor.between ? table.groups[row][place_of(table.between, factor)]
+                                                  : table.columns[condition][place_of(table.within, factor)]);
         }
       }
     }

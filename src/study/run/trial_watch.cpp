@@ -144,7 +144,9 @@ int TrialWatch::touched_anew(const Sample& tick) {
 
 /// The thing pushed in this tick; -1: none. Each contact is one push at most.
 int TrialWatch::pushed(const Sample& tick) {
-  if (tick.touched < 0 || goal_.things[std::size_t(tick.touched)].widget != nullptr || pushed_ || (tick.tip - tick.scp).norm() < goal_.depth) return -1;
+  if (tick.touched < 0 || goal_.things[std::size_t(tick.touched)].widget != nullptr || pushed_ ||
+      (tick.tip - tick.scp).norm() < goal_.depth)
+    return -1;
   pushed_ = true;
   return tick.touched;
 }

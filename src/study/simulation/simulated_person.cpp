@@ -28,7 +28,7 @@ constexpr double kTouchTime = 0.25;      // s, of the last bit of a touch
 constexpr double kPushTime = 0.6;        // s, of a push
 constexpr double kPushSurplus = 6.0;     // times the depth: surfaces push back
 constexpr double kEyeDistance = 0.5;     // m, from the eyes to the scene
-constexpr int kTicksAFrame = 16;          // after which the element's sheets are followed, as by a display
+constexpr int kTicksAFrame = 16;         // after which the element's sheets are followed, as by a display
 constexpr int kYoungest = 18, kOldest = 65;
 
 std::uint64_t mixed(std::uint64_t seed, std::initializer_list<std::uint64_t> parts) {

@@ -82,8 +82,8 @@ TEST(ThesisTables, OverAllTrialsAreRsTwoWayAnova) {
 
 TEST(ThesisTables, WithinALevelAreRsOneWayAnovaAndChiSquared) {
   const StudyData data = typed_data();
-  const ThesisTable table = thesis_table(analyse(data), kForcesOrNone, TrialChoice::All,
-                                         std::pair{kClickOrPush, std::size_t{0}});
+  const ThesisTable table =
+      thesis_table(analyse(data), kForcesOrNone, TrialChoice::All, std::pair{kClickOrPush, std::size_t{0}});
   expect_row(data, table, "time", 1990.0, 7400.0 / 3.0, 7.3759197806954, 0.0217139225579126);
   expect_row(data, table, "wrong", 2.0, 11.0, 16.2, 0.00241920050094857);
   ASSERT_EQ(table.choices.size(), 2U);
@@ -113,7 +113,8 @@ TEST(ThesisTables, CorrelationsAreRs) {
   EXPECT_NEAR(found.r(4, 1), 0.484768810522834, 1e-12);
 }
 
-// 180 right clicks in each condition: chisq.test(matrix(c(63, 180, 16, 180), 2, byrow = TRUE), correct = FALSE).
+// 180 right clicks in each condition: chisq.test(matrix(c(63, 180, 16, 180), 2, byrow = TRUE), correct =
+// FALSE).
 TEST(ThesisTables, TheClicksOfTheThesisAreWrongAsItSays) {
   StudyData data = data_of("menu");
   plan_trials(data, 15);
@@ -125,8 +126,8 @@ TEST(ThesisTables, TheClicksOfTheThesisAreWrongAsItSays) {
       add_trial(who, i / 15, 1.0 + 0.01 * double(i), errors);
     }
   }
-  const ThesisTable table = thesis_table(analyse(data), kForcesOrNone, TrialChoice::All,
-                                         std::pair{kClickOrPush, std::size_t{0}});
+  const ThesisTable table =
+      thesis_table(analyse(data), kForcesOrNone, TrialChoice::All, std::pair{kClickOrPush, std::size_t{0}});
   EXPECT_EQ(table.choices[0].wrong, 16U);
   EXPECT_EQ(table.choices[0].choices, 196U);
   EXPECT_EQ(table.choices[1].wrong, 63U);

@@ -140,7 +140,8 @@ TEST(SceneCheck, AnElementThatCannotBeReadIsTold) {
   std::ofstream(folder.path() / "scenes/colour-menu.toml", std::ios::trunc) << "[[item]]\nnmae = \"red\"\n";
   const StudyCheck check = checked(folder, folder.study());
   ASSERT_EQ(check.reasons.size(), 1U);
-  EXPECT_NE(check.reasons[0].sentence.find("colour-menu.toml:2:1"), std::string::npos) << check.reasons[0].sentence;
+  EXPECT_NE(check.reasons[0].sentence.find("colour-menu.toml:2:1"), std::string::npos)
+      << check.reasons[0].sentence;
   EXPECT_EQ(check.reasons[0].place.line, folder.study().trials.scenes[0].element->place.line);
   std::filesystem::remove(folder.path() / "scenes/colour-menu.toml");
   EXPECT_EQ(checked(folder, folder.study()).reasons.size(), 1U);

@@ -49,7 +49,8 @@ TEST(StageElement, OneThatDoesNotLieInTheWorldIsRefused) {
 bool is_near_by_hand(const Vector3& centre, double alpha, const base::Vector2& half, double margin,
                      const Vector3& place, double distance) {
   const Vector3 up = (centre + Vector3(0, 1, 0)) - centre;
-  const Vector3 along = Vector3(centre.x() + std::cos(alpha), centre.y(), centre.z() + std::sin(alpha)) - centre;
+  const Vector3 along =
+      Vector3(centre.x() + std::cos(alpha), centre.y(), centre.z() + std::sin(alpha)) - centre;
   const Vector3 normal = along.cross(up);
   const double far = std::abs(normal.dot(place - centre)) / normal.norm();
   const Vector3 foot = place - normal * (normal.dot(place - centre) / normal.squaredNorm());

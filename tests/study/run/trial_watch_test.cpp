@@ -195,8 +195,8 @@ TEST(TrialWatch, ATrialEndsAtItsLimit) {
   EXPECT_EQ(hand.watch.measures().homing_time, 0.0);
 }
 
-/// A trial whose target is the red one of two items, in a scene without objects; the menu stands at the origin
-/// and the pointer starts 10 cm before it.
+/// A trial whose target is the red one of two items, in a scene without objects; the menu stands at the
+/// origin and the pointer starts 10 cm before it.
 TrialGoal menu_goal(Choosing choosing, interaction::Element element = two_items()) {
   Study study = small_study();
   study.task->target = "menu/red";
@@ -266,7 +266,8 @@ TEST(TrialWatch, APushIntoAnItemCountsOnceHoweverTheHandTrembles) {
 TEST(TrialWatch, AnElementIsNotPushedFromBehind) {
   MenuHand hand(menu_goal(Choosing::Push));
   hand.at(hand.before("red", 0.0) + Vector3(0.2, 0.0, -0.05), 5);  // round it
-  for (const double front : {-0.05, -0.01, -0.004, -0.001, 0.001, 0.01}) hand.at(hand.before("red", front), 5);
+  for (const double front : {-0.05, -0.01, -0.004, -0.001, 0.001, 0.01})
+    hand.at(hand.before("red", front), 5);
   EXPECT_EQ(hand.watch.state(), TrialWatch::State::Running);
   for (const Sample& sample : hand.watch.samples()) EXPECT_EQ(sample.touched, -1);
   hand.at(hand.before("red", -0.004));

@@ -113,7 +113,8 @@ TEST(SimulatedPerson, ChoosesFromAnElementWithForcesAndWithout) {
 TEST(SimulatedPerson, GoesThroughTheMenuThatHoldsTheTarget) {
   const TemplateFolder folder("menu");
   std::ofstream menu(folder.path() / "scenes/colour-menu.toml", std::ios::trunc);
-  menu << "languages = [\"en\", \"nl\"]\ntext_m = 0.007\n[[item]]\nname = \"more\"\ntext = { en = \"More\", nl = "
+  menu << "languages = [\"en\", \"nl\"]\ntext_m = 0.007\n[[item]]\nname = \"more\"\ntext = { en = \"More\", "
+          "nl = "
           "\"Meer\" }\n";
   for (const Level& colour : folder.study().trials.variables[0].values)
     menu << "[[item.item]]\nname = \"" << colour.id << "\"\ntext = { en = \"x\", nl = \"x\" }\n";
@@ -186,7 +187,7 @@ TEST(SimulatedPerson, TremblesWhileItHoldsStillAsItsModelSays) {
 
 /// Where a person's first movement of 20 cm to the right ends: across and aside, m off the goal. The goal is
 /// a plate that is too wide to be missed, so that nothing is corrected.
-base::Vector2 first_end(std::uint64_t seed) {
+base::Vector2 first_landing(std::uint64_t seed) {
   Study study = read_study(study_template("blank", "b").value(), "b").value();
   study.seed = seed;
   TrialGoal goal;
@@ -220,7 +221,7 @@ TEST(SimulatedPerson, FirstMovementsEndOffTheGoalAsTheModelSays) {
   base::Vector2 sum = base::Vector2::Zero(), squares = base::Vector2::Zero();
   int beyond = 0, far = 0;
   for (std::uint64_t seed = 1; seed <= kPeople; ++seed) {
-    const base::Vector2 off = first_end(seed);
+    const base::Vector2 off = first_landing(seed);
     sum += off;
     squares += off.cwiseAbs2();
     beyond += off.x() > 0.0 ? 1 : 0;
@@ -233,7 +234,7 @@ TEST(SimulatedPerson, FirstMovementsEndOffTheGoalAsTheModelSays) {
   EXPECT_NEAR(sum.y() / kPeople, 0.0, aside * of_mean);
   EXPECT_NEAR(std::sqrt(squares.x() / kPeople), 1.0, of_deviation);
   EXPECT_NEAR(std::sqrt(squares.y() / kPeople) / aside, 1.0, of_deviation);
-  EXPECT_NEAR(double(beyond) / kPeople, 0.5, 2.5 / std::sqrt(kPeople));          // overshoots half of the time
+  EXPECT_NEAR(double(beyond) / kPeople, 0.5, 2.5 / std::sqrt(kPeople));  // overshoots half of the time
   EXPECT_NEAR(double(far) / kPeople, 0.3173, 5.0 * std::sqrt(0.2166 / kPeople));  // as a normal number is
 }
 
