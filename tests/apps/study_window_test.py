@@ -278,6 +278,14 @@ name = "menu"
 languages = ["en", "nl"]
 title = {{ en = "Menus", nl = "Menu's" }}
 needs = ["pointer", "haptic-menu"]
+consent = {{ en = "You may stop at any time.", nl = "U mag altijd stoppen." }}
+
+[[dependent]]
+id = "time"
+name = {{ en = "Time", nl = "Tijd" }}
+type = "ratio"
+unit = "s"
+from = "time"
 
 [[independent]]
 id = "way"
@@ -356,14 +364,8 @@ class StudyMenuTest(DesktopTest):
         desktop = self.start("study", "run", self.study, "--language", "nl")
         desktop.window = desktop.find_window("ICOME")
         self.screen.ask("windowfocus", "--sync", desktop.window)
-        wait_for("the session", lambda: len(self.rows("events")) > 1)
-        events = len(self.rows("events"))
-        while len(self.rows("beh")) < 1 and events < 6:  # pages before the first condition
-            desktop.key("Return")
-            time.sleep(1.0)
-            if len(self.rows("events")) == events:
-                break
-            events = len(self.rows("events"))
+        self.read_on(desktop, 2)  # consent
+        self.read_on(desktop, 3)  # the first condition
         time.sleep(1.5)  # the hand is held at the start
         self.keep(desktop, "study-menu-faded")
         steps = []
@@ -378,7 +380,7 @@ class StudyMenuTest(DesktopTest):
         self.assertEqual((clicked["way"], clicked["completed"]), ("click", "yes"), clicked)
         self.assertEqual(int(clicked["errors"]), 0)
         self.assertLess(float(clicked["approach_time"]), float(clicked["time"]))
-        desktop.key("Return")
+        self.read_on(desktop, 4)
         time.sleep(1.5)
         pushed = self.trial(2, lambda: None)
         self.assertEqual((pushed["way"], pushed["completed"]), ("push", "yes"), pushed)
