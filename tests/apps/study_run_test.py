@@ -101,8 +101,9 @@ class StudyRunTest(ProgramTest):
         self.assertTrue((data / "stimuli/scenes/colour-menu.toml").is_file())
         found = json.loads(self.succeeds("study", "report", data, "--json").stdout)
         self.assertTrue(found["simulated"])
-        trials = [trial for path in data.glob("sub-*/beh/*_beh.tsv") for trial in rows(path)
-                  if trial["phase"] == "measured"]
+        groups = {one["participant_id"]: one["group"] for one in rows(data / "participants.tsv")}
+        trials = [trial | {"interaction": groups[path.parts[-3]]} for path in data.glob("sub-*/beh/*_beh.tsv")
+                  for trial in rows(path) if trial["phase"] == "measured"]
         self.assertEqual(len(trials), 120)
         table = next(table for table in found["thesis"]["tables"] if table["factor"] == "haptics"
                      and table["trials"] == "all" and table.get("only") == {"interaction": "click"})

@@ -108,8 +108,8 @@ class StudyTest(ProgramTest):
         file = self.new("menu.toml", "--template", "menu")
         file.write_text(file.read_text().replace('id = "red"', 'id = "pink"'))
         report = self.check(file, code=1)
-        self.assertEqual(len(report["reasons"]), 2)  # the menus that the program has not, and this
-        self.assertIn("the task's target is 'item-pink'", report["reasons"][1]["sentence"])
+        self.assertEqual(len(report["reasons"]), 1)
+        self.assertIn("the task's target is 'menu/pink'", report["reasons"][0]["sentence"])
         self.assertTrue(any("'cube-pink'" in warning["sentence"] for warning in report["warnings"]))
 
     def test_scenes_of_templates_stand_beside_them(self):

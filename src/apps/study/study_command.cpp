@@ -60,7 +60,7 @@ int run_study_new(const StudyOptions& options) {
   return print_answer(fmt::format(
       "{} is written, with {} in scenes/ beside it. Change it, then:\n  icome study check {}\n"
       "  icome study run {} --simulate 8\n",
-      name, scenes.size() == 1 ? "a scene" : fmt::format("{} scenes", scenes.size()), name, name));
+      name, scenes.size() == 1 ? "a file" : fmt::format("{} files", scenes.size()), name, name));
 }
 
 int run_study_check(const StudyOptions& options) {

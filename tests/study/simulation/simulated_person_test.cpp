@@ -161,7 +161,7 @@ TEST(SimulatedPerson, TremblesWhileItHoldsStillAsItsModelSays) {
   double sum = 0.0;
   int count = 0;
   for (std::uint64_t who = 0; who < 8; ++who) {
-    const interaction::PersonModel& model = SimulatedPerson(folder.study(), who).model();
+    const interaction::PersonModel model = SimulatedPerson(folder.study(), who).model();
     for (std::size_t number = 0; number < 3; ++number) {
       const auto run = menu_run(folder, who, 0, 1, number);
       for (int axis = 0; axis < 3; ++axis) {
