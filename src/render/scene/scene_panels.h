@@ -8,8 +8,8 @@
 
 namespace icome::render {
 
-/// The panels to be drawn: those that lie in the scene, or all others. Markers come between them, so that a hand
-/// is seen before an element.
+/// The panels to be drawn: those that lie in the scene, or all others. Markers come between them, so that a
+/// hand is seen before an element.
 enum class PanelLayer : std::uint8_t { InScene, OverAll };
 
 /// Draws the panels of overlays. Keeps their pictures on the graphics card until nobody has them any more.
