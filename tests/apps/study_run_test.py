@@ -96,6 +96,37 @@ class StudyRunTest(ProgramTest):
         groups = [one["group"] for one in rows(data / "participants.tsv")]
         self.assertEqual(sorted(groups), ["click", "click", "push", "push"])
 
+    def test_the_menu_study_is_reported_in_the_form_of_the_thesis(self):
+        data = self.simulate(self.study("menu", template="menu"), 4)
+        self.assertTrue((data / "stimuli/scenes/colour-menu.toml").is_file())
+        found = json.loads(self.succeeds("study", "report", data, "--json").stdout)
+        self.assertTrue(found["simulated"])
+        groups = {one["participant_id"]: one["group"] for one in rows(data / "participants.tsv")}
+        trials = [trial | {"interaction": groups[path.parts[-3]]} for path in data.glob("sub-*/beh/*_beh.tsv")
+                  for trial in rows(path) if trial["phase"] == "measured"]
+        self.assertEqual(len(trials), 120)
+        table = next(table for table in found["thesis"]["tables"] if table["factor"] == "haptics"
+                     and table["trials"] == "all" and table.get("only") == {"interaction": "click"})
+        for level in ("forces", "none"):
+            mine = [trial for trial in trials if trial["interaction"] == "click" and trial["haptics"] == level]
+            times = [1000 * float(trial["time"]) for trial in mine]
+            row = next(row for row in table["rows"] if row["variable"] == "time")
+            self.assertAlmostEqual(row["levels"][level], sum(times) / len(times), places=6)
+            wrong = sum(int(trial["errors"]) for trial in mine)
+            self.assertEqual(table["choices"]["levels"][level], {"choices": len(mine) + wrong, "wrong": wrong})
+        self.assertEqual(len(found["thesis"]["correlations"]), 10)
+        page = (data / "report.html").read_text()
+        self.assertIn("In the form of the thesis", page)
+        for like in ("As tables 6.2 and 6.4", "As table 6.5", "As table 6.3", "As table 6.1"):
+            self.assertIn(like, page)
+
+    def test_a_changed_element_is_refused(self):
+        file = self.study("menu", template="menu")
+        self.simulate(file, 1)
+        menu = self.folder / "scenes" / "colour-menu.toml"
+        menu.write_text(menu.read_text().replace("push_m = 0.003", "push_m = 0.004"))
+        self.fails("study", "run", file, "--simulate", 2, code=1, saying="was another scene")
+
     def test_more_people_join_those_there_are(self):
         file = self.study()
         data = self.simulate(file, 1)
@@ -124,7 +155,9 @@ class StudyRunTest(ProgramTest):
         head = self.study("head", template="head-tracking")
         for words in ("head-tracking", "--head", "--pointer-only"):
             self.fails("study", "run", head, code=1, saying=words)
-        self.fails("study", "run", self.study("menus", template="menu"), code=1, saying="haptic-menu")
+        voice = self.study("voice", lambda text: text.replace('needs = ["pointer"', 'needs = ["speech", "pointer"'),
+                           template="menu")
+        self.fails("study", "run", voice, code=1, saying="speech")
         bare = self.study("bare", lambda text: text.replace('target = "target"', 'target = "goal"'))
         self.fails("study", "run", bare, "--simulate", 1, code=1, saying="'goal'")
         (self.folder / "scenes" / "pointing-room.wrl").unlink()
@@ -137,7 +170,7 @@ class StudyRunTest(ProgramTest):
         (self.folder / "scenes" / "pointing-room.wrl").write_bytes(b"\x00\xff" * 250)
         before = sorted(self.folder.rglob("*"))
         for options in (("--simulate", 1), ("--pointer-only", "--with", "age=30")):
-            self.fails("study", "run", pink, *options, code=1, saying="'item-pink'")
+            self.fails("study", "run", pink, *options, code=1, saying="'menu/pink'")
             self.fails("study", "run", file, *options, code=1, saying="pointing-room.wrl")
         self.assertEqual(sorted(self.folder.rglob("*")), before)
 

@@ -1,4 +1,5 @@
 """`icome study run` with a person: pages, questions and trials by keys and mouse, to the end, and what goes wrong."""
+import json
 import os
 import signal
 import subprocess
@@ -270,6 +271,127 @@ class StudyWindowTest(DesktopTest):
         desktop = self.start("study", "run", self.study, "--data", self.folder / "tiny-simulated")
         self.assertEqual(desktop.wait_end(), 1, desktop.printed())
         self.assertIn("holds simulated data", desktop.printed())
+
+
+MENU_STUDY = """
+name = "menu"
+languages = ["en", "nl"]
+title = {{ en = "Menus", nl = "Menu's" }}
+needs = ["pointer", "haptic-menu"]
+consent = {{ en = "You may stop at any time.", nl = "U mag altijd stoppen." }}
+
+[[dependent]]
+id = "time"
+name = {{ en = "Time", nl = "Tijd" }}
+type = "ratio"
+unit = "s"
+from = "time"
+
+[[independent]]
+id = "way"
+name = {{ en = "Way", nl = "Manier" }}
+kind = "within"
+levels = [
+  {{ id = "click", name = {{ en = "Click", nl = "Klik" }}, select = "click" }},
+  {{ id = "push", name = {{ en = "Push", nl = "Duw" }}, select = "push", forces = false }},
+]
+
+[task]
+target = "menu/Red"
+wrong = "menu/*"
+start = [0.0, 0.0, 0.1]
+
+[trials]
+measured = 1
+hold = 0.2
+scenes = [{{ id = "room", file = "room.wrl", element = {{ id = "menu", file = "menu.toml", centre = [{}, {}, 0] }} }}]
+"""
+MENU = """languages = ["en", "nl"]
+title = { en = "Colour", nl = "Kleur" }
+text_m = 0.006
+[[item]]
+name = "Blue"
+text = { en = "Blue", nl = "Blauw" }
+icon = "#2b5fc7"
+[[item]]
+name = "Red"
+text = { en = "Red", nl = "Rood" }
+icon = "#d62f2f"
+"""
+ROOM = """#VRML V2.0 utf8
+DEF floor Transform { translation 0 -0.06 0 children Shape {
+  appearance Appearance { material Material { diffuseColor 0.55 0.58 0.63 } }
+  geometry Box { size 0.2 0.005 0.15 } } }
+"""
+
+
+class StudyMenuTest(DesktopTest):
+    """A menu that lies in the scene of a study, chosen from with the hand that the mouse drives."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "room.wrl").write_text(ROOM)
+        (self.folder / "menu.toml").write_text(MENU)
+        laid = json.loads(subprocess.run([PROGRAM, "menu", self.folder / "menu.toml", "--json"], check=True,
+                                         capture_output=True, text=True).stdout)
+        red = next(item["centre"] for item in laid["items"] if item["name"] == "Red")
+        # The eye is before the scene and a quarter as far above it; the hand goes away along that way.
+        self.study = self.folder / "menu-study.toml"
+        self.study.write_text(MENU_STUDY.format(-red[0], -red[1] - 0.25 * 0.1))
+
+    def rows(self, kind):
+        found = list(self.folder.glob(f"menu-study-data/sub-*/beh/*_{kind}.tsv"))
+        return found[0].read_text().splitlines() if found else []
+
+    def trial(self, count, choose):
+        """Goes away from the eye until the trial is over, choosing at each step."""
+        def reach():
+            self.screen.ask("click", 4)
+            choose()
+            latest = time.monotonic() + 0.2
+            while len(self.rows("beh")) <= count and time.monotonic() < latest:
+                time.sleep(0.02)
+            return len(self.rows("beh")) > count
+        wait_for(f"{count} trials", reach)
+        names, values = self.rows("beh")[0].split("\t"), self.rows("beh")[count].split("\t")
+        return dict(zip(names, values))
+
+    def read_on(self, desktop, events):
+        desktop.key("Return")
+        wait_for(f"{events} events: {self.rows('events')}", lambda: len(self.rows("events")) > events)
+
+    def test_a_person_clicks_and_pushes_items(self):
+        desktop = self.start("study", "run", self.study, "--language", "nl")
+        desktop.window = desktop.find_window("ICOME")
+        self.screen.ask("windowfocus", "--sync", desktop.window)
+        self.read_on(desktop, 2)  # consent
+        self.read_on(desktop, 3)  # the first condition
+        time.sleep(1.5)  # the hand is held at the start
+        self.keep(desktop, "study-menu-faded")
+        steps = []
+
+        def click():
+            steps.append(1)
+            if len(steps) > 12:  # near enough for the item to be lit and the menu to be opaque
+                time.sleep(0.5)
+                self.keep(desktop, f"study-menu-{len(steps)}")
+            self.screen.ask("click", 1)
+        clicked = self.trial(1, click)
+        self.assertEqual((clicked["way"], clicked["completed"]), ("click", "yes"), clicked)
+        self.assertEqual(int(clicked["errors"]), 0)
+        self.assertLess(float(clicked["approach_time"]), float(clicked["time"]))
+        self.read_on(desktop, 4)
+        time.sleep(1.5)
+        pushed = self.trial(2, lambda: None)
+        self.assertEqual((pushed["way"], pushed["completed"]), ("push", "yes"), pushed)
+        self.assertEqual(int(pushed["errors"]), 0)
+        traces = sorted(self.folder.glob("menu-study-data/sub-*/motion/*_motion.tsv"))
+        for trace, deepest in zip(traces, (0.02, -0.003)):
+            last = trace.read_text().splitlines()[-1].split("\t")
+            about = json.loads(trace.with_suffix(".json").read_text())
+            self.assertEqual(about["Touched"][int(last[-1])], "menu/Red")  # chosen
+            self.assertEqual(last[-1], last[-2])  # and lit
+            self.assertLess(float(last[3]), deepest)
 
 
 class NoDisplayTest(ProgramTest):

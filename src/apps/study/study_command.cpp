@@ -57,10 +57,10 @@ int run_study_new(const StudyOptions& options) {
     if (const auto written = write_scene(options.file.parent_path() / scene.file, scene.text); !written)
       return end_without_result(written.error(), status);
   const std::string name = options.file.string();
-  return print_answer(fmt::format(
-      "{} is written, with {} in scenes/ beside it. Change it, then:\n  icome study check {}\n"
-      "  icome study run {} --simulate 8\n",
-      name, scenes.size() == 1 ? "a scene" : fmt::format("{} scenes", scenes.size()), name, name));
+  return print_answer(
+      fmt::format("{} is written, with {} in scenes/ beside it. Change it, then:\n  icome study check {}\n"
+                  "  icome study run {} --simulate 8\n",
+                  name, scenes.size() == 1 ? "a file" : fmt::format("{} files", scenes.size()), name, name));
 }
 
 int run_study_check(const StudyOptions& options) {

@@ -51,14 +51,17 @@ void write_summary(StudyPage& page) {
   page.list(lines);
 }
 
-std::string study_page(const study::StudyData& data, const study::Analysis& analysis, PageForm form) {
+std::string study_page(const study::StudyData& data, const study::Analysis& analysis, PageForm form,
+                       const std::vector<ScenePicture>& scenes) {
   StudyPage page(data, analysis, form);
   write_head(page);
   write_summary(page);
   write_design(page);
+  write_scenes(page, scenes);
   write_participants(page);
   write_results(page);
   write_correlations(page);
+  write_thesis_form(page);
   write_answers(page);
   write_hypotheses(page);
   write_checks(page);

@@ -163,4 +163,15 @@ void write_participants(StudyPage& page) {
   write_orders(page);
 }
 
+void write_scenes(StudyPage& page, const std::vector<ScenePicture>& scenes) {
+  if (scenes.empty()) return;
+  page.subheading("Scenes");
+  for (const ScenePicture& scene : scenes) {
+    if (scene.png.empty())
+      page.paragraph(fmt::format("A picture of scene '{}' cannot be drawn: {}", scene.scene, scene.why));
+    else
+      page.picture(scene.png, fmt::format("As figure 6.1: scene '{}' at the start of a trial.", scene.scene));
+  }
+}
+
 }  // namespace icome::apps

@@ -139,6 +139,62 @@ StatsJson correlations_json(const study::StudyData& data, const study::Correlati
   return pairs;
 }
 
+StatsJson thesis_row_json(const study::Study& study, const study::ThesisTable& table,
+                          const study::ThesisRow& row) {
+  StatsJson levels = StatsJson::object();
+  for (std::size_t i = 0; i < row.levels.size(); ++i)
+    levels[study.independent[table.factor].levels[i].id] =
+        row.levels[i] ? StatsJson(*row.levels[i]) : StatsJson(nullptr);
+  StatsJson json = {{"variable", study.dependent[row.variable].id},
+                    {"unit", study::measured_unit(study.dependent[row.variable]).name},
+                    {"sum", row.total ? "total" : "mean"},
+                    {"levels", levels},
+                    {"trials", row.trials}};
+  json.append({{"test", row.test.result ? StatsJson(row.test.result->test) : StatsJson(nullptr)},
+               {"f", row.test.result ? StatsJson(row.test.result->value) : StatsJson(nullptr)},
+               {"df", row.test.result ? StatsJson(row.test.result->df) : StatsJson::array()},
+               {"p", row.test.result ? StatsJson(row.test.result->p) : StatsJson(nullptr)},
+               {"why", row.test.result ? StatsJson(nullptr) : StatsJson(row.test.why)}});
+  return json;
+}
+
+/// The choices by level, and whether their shares of wrong ones differ; null where errors are not measured.
+StatsJson choices_json(const study::Study& study, const study::ThesisTable& table) {
+  if (table.choices.empty()) return nullptr;
+  StatsJson levels = StatsJson::object();
+  for (std::size_t i = 0; i < table.choices.size(); ++i)
+    levels[study.independent[table.factor].levels[i].id] =
+        StatsJson{{"choices", table.choices[i].choices}, {"wrong", table.choices[i].wrong}};
+  return {{"levels", levels},
+          {"p", table.choices_test.result ? StatsJson(table.choices_test.result->p) : StatsJson(nullptr)}};
+}
+
+/// Tables 6.1 to 6.5 in the form of the thesis: trials are the observations.
+StatsJson thesis_json(const study::StudyData& data, const study::Analysis& analysis) {
+  StatsJson tables = StatsJson::array(), correlations = StatsJson::array();
+  for (const study::ThesisTable& table : analysis.thesis_tables) {
+    StatsJson rows = StatsJson::array();
+    for (const study::ThesisRow& row : table.rows) rows.push_back(thesis_row_json(data.study, table, row));
+    StatsJson one = {{"factor", data.study.independent[table.factor].id},
+                     {"trials", table.trials == study::TrialChoice::All ? "all" : "last"}};
+    if (table.within_level) {
+      const study::IndependentVariable& other = data.study.independent[table.within_level->first];
+      one["only"] = StatsJson{{other.id, other.levels[table.within_level->second].id}};
+    }
+    one["rows"] = rows;
+    one["choices"] = choices_json(data.study, table);
+    tables.push_back(one);
+  }
+  const study::ThesisCorrelations& found = analysis.thesis_correlations;
+  for (std::size_t i = 0; i < found.variables.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      correlations.push_back({{"first", data.study.dependent[found.variables[k]].id},
+                              {"second", data.study.dependent[found.variables[i]].id},
+                              {"r", found.r(Eigen::Index(i), Eigen::Index(k))},
+                              {"trials", found.counts(Eigen::Index(i), Eigen::Index(k))}});
+  return {{"tables", tables}, {"correlations", correlations}};
+}
+
 StatsJson questions_json(const study::StudyData& data, const study::Analysis& analysis) {
   StatsJson questions = StatsJson::array();
   for (const study::QuestionSummary& question : analysis.questions) {
@@ -199,6 +255,7 @@ std::string study_page_json(const study::StudyData& data, const study::Analysis&
                     {"tables", tables_json(data, analysis)},
                     {"analyses", variances_json(data, analysis)},
                     {"correlations", correlations_json(data, analysis.correlations)},
+                    {"thesis", thesis_json(data, analysis)},
                     {"questions", questions_json(data, analysis)},
                     {"hypotheses", hypothesis_results_json(data, analysis)},
                     {"checks", checks_json(data, analysis)},

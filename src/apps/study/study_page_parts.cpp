@@ -168,15 +168,23 @@ void StudyPage::figure(StatsChart chart, std::string_view text) {
   if (data_.simulated) chart.title = fmt::format("SIMULATED. {}", chart.title);
   const auto address = picture_address(chart, form_);
   if (!address) return paragraph(fmt::format("A figure cannot be drawn: {}", address.error().message));
+  figure_at(*address, text);
+}
+
+void StudyPage::picture(std::span<const unsigned char> png, std::string_view text) {
+  figure_at(fmt::format("data:image/png;base64,{}", base64(png)), text);
+}
+
+void StudyPage::figure_at(const std::string& address, std::string_view text) {
   const std::string title = caption("Figure", ++figures_, escaped(text));
   if (on_paper())
     body_ += fmt::format(
         "<p class=\"picture\"><img src=\"{}\" width=\"540\" height=\"360\" alt=\"\" /></p>\n<p "
         "class=\"caption\">{}</p>\n",
-        *address, title);
+        address, title);
   else
     body_ += fmt::format("<figure><img src=\"{}\" alt=\"{}{}\" />\n<figcaption>{}</figcaption></figure>\n",
-                         *address, data_.simulated ? "SIMULATED. " : "", escaped(text), title);
+                         address, data_.simulated ? "SIMULATED. " : "", escaped(text), title);
 }
 
 std::string unbroken(std::string text) {

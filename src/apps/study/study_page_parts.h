@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +47,8 @@ class StudyPage {
   void table(const PageTable& table);
   /// A figure that cannot be drawn is replaced by a sentence that says why.
   void figure(StatsChart chart, std::string_view caption);
+  /// A figure that is there as a PNG.
+  void picture(std::span<const unsigned char> png, std::string_view caption);
   /// Appends markup as it is.
   void raw(std::string_view markup) { body_ += markup; }
 
@@ -56,6 +59,7 @@ class StudyPage {
   std::string stamp() const;
 
  private:
+  void figure_at(const std::string& address, std::string_view caption);
   /// The caption for a text that is escaped already.
   std::string caption(const char* kind, int number, std::string_view text) const;
 
@@ -69,9 +73,12 @@ class StudyPage {
 // The parts of the page, in its order.
 void write_summary(StudyPage& page);
 void write_design(StudyPage& page);
+/// The scenes, as figure 6.1.
+void write_scenes(StudyPage& page, const std::vector<ScenePicture>& scenes);
 void write_participants(StudyPage& page);
 void write_results(StudyPage& page);
 void write_correlations(StudyPage& page);
+void write_thesis_form(StudyPage& page);
 void write_answers(StudyPage& page);
 void write_hypotheses(StudyPage& page);
 void write_checks(StudyPage& page);

@@ -60,10 +60,10 @@ base::Result<void> write_page(const std::string& page, const std::filesystem::pa
 }
 
 base::Result<void> write_pdf_of(const study::StudyData& data, const study::Analysis& analysis,
-                                const std::filesystem::path& out) {
+                                const std::vector<ScenePicture>& scenes, const std::filesystem::path& out) {
   const std::string title = data.study.title.empty() ? data.study.name : data.study.title.front();
   const std::string foot = fmt::format("{}{}", data.simulated ? "SIMULATED \u00b7 " : "", title);
-  return ui::write_pdf(study_page(data, analysis, PageForm::Paper),
+  return ui::write_pdf(study_page(data, analysis, PageForm::Paper, scenes),
                        {fmt::format("{}{}", data.simulated ? "SIMULATED: " : "", title), foot}, out);
 }
 
@@ -77,10 +77,11 @@ int run_study_report(const StudyReportOptions& options) {
   const auto data = study::read_study_data(options.folder);
   if (!data) return end_without_result(data.error(), status);
   const study::Analysis analysis = study::analyse(*data);
-  if (const auto written = write_page(study_page(*data, analysis, PageForm::Screen), out); !written)
+  const std::vector<ScenePicture> scenes = pictures_of_scenes(*data, options.folder);
+  if (const auto written = write_page(study_page(*data, analysis, PageForm::Screen, scenes), out); !written)
     return end_without_result(written.error(), status);
   if (!options.pdf.empty())
-    if (const auto written = write_pdf_of(*data, analysis, options.pdf); !written)
+    if (const auto written = write_pdf_of(*data, analysis, scenes, options.pdf); !written)
       return end_without_result(written.error(), status);
   if (options.json) return print_answer(study_page_json(*data, analysis));
   std::string where = fmt::format("\nThe report: {}\n", out.string());

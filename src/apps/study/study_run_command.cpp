@@ -28,12 +28,6 @@ namespace {
 constexpr std::uint64_t kLargestStudyFile = 16U << 20U;  // bytes
 constexpr std::uint64_t kLargestScene = 1U << 30U;       // bytes
 
-std::vector<study::TrialScene> scenes_of_trials(const study::Study& study) {
-  std::vector<study::TrialScene> scenes = study.trials.scenes;
-  if (study.trials.practice_scene) scenes.push_back(*study.trials.practice_scene);
-  return scenes;
-}
-
 /// The study without the parts that need more than a pointer.
 base::Result<study::Study> pointer_alone(const study::Study& study) {
   std::vector<std::string> needs;
@@ -80,13 +74,13 @@ std::filesystem::path data_folder(const StudyOptions& options) {
                                                   options.simulate > 0 ? "simulated" : "data");
 }
 
-/// The scene files as they are now.
+/// The files of scenes and of their elements as they are now.
 base::Result<std::vector<study::SceneFile>> scenes_of(const OpenedStudy& opened) {
   std::vector<study::SceneFile> files;
-  for (const study::TrialScene& scene : scenes_of_trials(opened.study)) {
-    auto bytes = io::read_bytes(opened.folder / scene.file, kLargestScene);
+  for (const std::string& name : study::stage_files(opened.study)) {
+    auto bytes = io::read_bytes(opened.folder / name, kLargestScene);
     if (!bytes) return tl::unexpected(bytes.error());
-    files.push_back({scene.file, std::move(*bytes)});
+    files.push_back({name, std::move(*bytes)});
   }
   return files;
 }

@@ -92,6 +92,8 @@ class ElementUse {
   /// The distance of a place to the nearest sheet, in the element's metres.
   double distance_to(const base::Vector3& place) const;
   double opacity() const { return opacity_; }
+  /// The side of its plane on which the pointer is; Unknown where it is not over a sheet.
+  haptics::PanelSide side() const { return side_; }
   bool is_checked(const Widget& widget) const { return settings_.of(widget).checked; }
   double value_of(const Widget& widget) const { return settings_.of(widget).value; }
   const ElementSettings& settings() const { return settings_; }

@@ -93,7 +93,7 @@ unsigned ScenePanels::texture(const std::shared_ptr<const charts::Image>& pictur
   return found.texture.name();
 }
 
-base::Result<void> ScenePanels::draw(const SceneOverlay& overlay, const Camera& camera,
+base::Result<void> ScenePanels::draw(const SceneOverlay& overlay, PanelLayer layer, const Camera& camera,
                                      const SceneTarget& target, ScenePrograms& programs) {
   std::erase_if(entries_, [](const auto& it) { return it.second.picture.expired(); });
   if (overlay.panels.empty()) return {};
@@ -108,7 +108,8 @@ base::Result<void> ScenePanels::draw(const SceneOverlay& overlay, const Camera& 
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   for (const SceneOverlay::Panel& panel : overlay.panels) {
-    if (!can_be_drawn(panel)) continue;
+    const bool lies = panel.at && panel.lying;
+    if (lies != (layer == PanelLayer::InScene) || !can_be_drawn(panel)) continue;
     const auto corners = corners_of(panel, camera, target);
     if (!corners || !corners->allFinite()) continue;
     glBindTexture(GL_TEXTURE_2D, texture(panel.picture));

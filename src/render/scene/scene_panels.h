@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <unordered_map>
 
@@ -7,12 +8,16 @@
 
 namespace icome::render {
 
+/// The panels to be drawn: those that lie in the scene, or all others. Markers come between them, so that a
+/// hand is seen before an element.
+enum class PanelLayer : std::uint8_t { InScene, OverAll };
+
 /// Draws the panels of overlays. Keeps their pictures on the graphics card until nobody has them any more.
 class ScenePanels {
  public:
   /// `camera` is of the whole picture.
-  base::Result<void> draw(const SceneOverlay& overlay, const Camera& camera, const SceneTarget& target,
-                          ScenePrograms& programs);
+  base::Result<void> draw(const SceneOverlay& overlay, PanelLayer layer, const Camera& camera,
+                          const SceneTarget& target, ScenePrograms& programs);
 
  private:
   struct Entry {

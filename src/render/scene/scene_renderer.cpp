@@ -382,9 +382,11 @@ base::Result<void> SceneRenderer::Parts::show(const ScenePictureWish& wish) {
     canvas = &shown;
     for (const SceneOutline& it : wish.look.outlines)
       if (done) done = outline(wish, it);
+    bind_canvas(shown);
+    if (done) done = panels.draw(wish.look.overlay, PanelLayer::InScene, wish.camera, wish.target, programs);
     if (done) done = draw_markers(wish);
     bind_canvas(shown);
-    if (done) done = panels.draw(wish.look.overlay, wish.camera, wish.target, programs);
+    if (done) done = panels.draw(wish.look.overlay, PanelLayer::OverAll, wish.camera, wish.target, programs);
   }
   glDisable(GL_DEPTH_TEST);
   if (!done) return done;

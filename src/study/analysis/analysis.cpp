@@ -26,6 +26,8 @@ Analysis analyse(const StudyData& data) {
   analysis.tables = result_tables(data);
   analysis.variances = analyse_variances(data);
   analysis.correlations = correlate_quantities(data);
+  analysis.thesis_tables = thesis_tables(data);
+  analysis.thesis_correlations = thesis_correlations(data);
   analysis.questions = summarise_questions(data);
   analysis.hypotheses = test_hypotheses(data);
   take_tests_of_hypotheses(data.study, analysis);

@@ -101,6 +101,39 @@ struct CorrelationTable {
   Eigen::MatrixXi counts;
 };
 
+/// A row of a table as the thesis prints it: means over trials, or the total number of errors.
+struct ThesisRow {
+  std::size_t variable = 0;  // of Study::dependent
+  bool total = false;
+  std::vector<std::optional<double>> levels;  // in the variable's unit; none: no trials
+  std::size_t trials = 0;                     // that have a number
+  Tested test;                                // TestResult::people is the number of trials
+};
+
+/// The choices at a level of a factor: each completed trial has one that was right.
+struct ChoiceCount {
+  std::size_t choices = 0, wrong = 0;
+};
+
+/// A table in the form of 6.1, 6.2, 6.4 and 6.5 of the thesis: every trial is an observation of its own, as
+/// if it were another person's, and all factors are tested as if they were between people. Shown beside the
+/// tables of people's means to be compared with the thesis; decides nothing.
+struct ThesisTable {
+  std::size_t factor = 0;  // of Study::independent
+  TrialChoice trials = TrialChoice::All;
+  std::optional<std::pair<std::size_t, std::size_t>> within_level;  // of another factor, its level; none: all
+  std::vector<ThesisRow> rows;
+  std::vector<ChoiceCount> choices;  // by level, where errors are measured; of table 6.5's text
+  Tested choices_test;               // do the shares of wrong choices differ? (chi-squared)
+};
+
+/// Table 6.3: correlations over trials. NaN where there is none.
+struct ThesisCorrelations {
+  std::vector<std::size_t> variables;  // of Study::dependent
+  Eigen::MatrixXd r;
+  Eigen::MatrixXi counts;  // trials
+};
+
 /// The answers to a question.
 struct QuestionSummary {
   ItemPlace place;
@@ -143,6 +176,8 @@ struct Analysis {
   std::vector<ResultTable> tables;
   std::vector<VarianceAnalysis> variances;  // of measured variables, where there are several factors
   CorrelationTable correlations;
+  std::vector<ThesisTable> thesis_tables;
+  ThesisCorrelations thesis_correlations;
   std::vector<QuestionSummary> questions;  // all of the study
   std::vector<HypothesisResult> hypotheses;
   std::vector<AssumptionCheck> checks;

@@ -14,6 +14,8 @@ ParticipantSummary summarise_participants(const StudyData& data);
 std::vector<ResultTable> result_tables(const StudyData& data);
 std::vector<VarianceAnalysis> analyse_variances(const StudyData& data);
 CorrelationTable correlate_quantities(const StudyData& data);
+std::vector<ThesisTable> thesis_tables(const StudyData& data);
+ThesisCorrelations thesis_correlations(const StudyData& data);
 std::vector<QuestionSummary> summarise_questions(const StudyData& data);
 std::vector<HypothesisResult> test_hypotheses(const StudyData& data);
 std::vector<AssumptionCheck> check_assumptions(const StudyData& data);

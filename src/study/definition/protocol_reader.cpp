@@ -1,23 +1,44 @@
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "study/definition/study_parts.h"
 
 namespace icome::study {
 namespace {
 
 constexpr int kMostTrials = 10000;
-constexpr double kLongest = 86400.0;  // s
-constexpr double kShortest = 0.001;   // s
-constexpr int kMostPoints = 101;      // of a rating scale
-constexpr double kLargest = 1e15;     // answer to a question for a number
+constexpr double kLongest = 86400.0;       // s
+constexpr double kShortest = 0.001;        // s
+constexpr int kMostPoints = 101;           // of a rating scale
+constexpr double kLargest = 1e15;          // answer to a question for a number
+constexpr double kFarthestElement = 10.0;  // m
 
-TrialScene read_scene(KeyReader& keys) {
+SceneElement read_scene_element(KeyReader& keys) {
+  SceneElement element;
+  element.place = keys.place();
+  element.id = keys.id();
+  keys.require("file", "an element, as file = \"menu.toml\"");
+  element.file = keys.plain("file");
+  element.centre = keys.point("centre", kFarthestElement);
+  if (keys.has("turn_deg"))
+    element.turn = keys.number("turn_deg", 0.0, -180.0, 180.0) * std::numbers::pi / 180.0;
+  keys.finish();
+  return element;
+}
+
+TrialScene read_scene(KeyReader& keys, const std::vector<std::string>& languages) {
   TrialScene scene;
   scene.place = keys.place();
   scene.id = keys.id();
   scene.file = keys.plain("file");
   scene.needs = read_needs(keys);
   scene.start = read_start(keys);
+  if (const TomlNode* const element = keys.table("element")) {
+    KeyReader element_keys(*element, fmt::format("element of scene '{}'", scene.id), languages,
+                           keys.problems());
+    scene.element = read_scene_element(element_keys);
+  }
   keys.finish();
   return scene;
 }
@@ -99,9 +120,10 @@ void read_trials(KeyReader& keys, const std::vector<std::string>& languages, Tri
   trials.seconds = part.number("seconds", trials.seconds, kShortest, kLongest);
   if (const TomlNode* const scene = part.table("practice-scene")) {
     KeyReader scene_keys(*scene, "practice-scene", languages, keys.problems());
-    trials.practice_scene = read_scene(scene_keys);
+    trials.practice_scene = read_scene(scene_keys, languages);
   }
-  for (KeyReader& scene : part.tables("scenes", "scene")) trials.scenes.push_back(read_scene(scene));
+  for (KeyReader& scene : part.tables("scenes", "scene"))
+    trials.scenes.push_back(read_scene(scene, languages));
   trials.scenes_shuffled = part.word<bool>("scene-order", {{"fixed", false}, {"shuffled", true}}, false);
   for (KeyReader& variable : part.tables("variables", "trial variable"))
     trials.variables.push_back(read_trial_variable(variable));

@@ -110,6 +110,9 @@ class SceneChecker {
   void look_into(const TrialScene& scene, TrialPlan plan) {
     const auto& world = reader_.whole(scene.file);
     if (!world) return refuse(scene, scene.place, ended(world.error().message));
+    const auto element = reader_.element_in(plan);
+    if (!element) return refuse(scene, scene.element->place, ended(element.error().message));
+    if (*element != nullptr) check_languages(scene, **element);
     if (!study_.task) return;
     looked_ = true;
     std::string why;             // of the first draw that has no goal
@@ -135,7 +138,18 @@ class SceneChecker {
   base::Result<TrialGoal> goal_of(const TrialPlan& plan) {
     const auto world = reader_.in_trial(plan);
     if (!world) return tl::unexpected(world.error());
-    return trial_goal(study_, {}, plan, *world);
+    const auto element = reader_.element_in(plan);
+    if (!element) return tl::unexpected(element.error());
+    return trial_goal(study_, {}, plan, *world, *element);
+  }
+
+  void check_languages(const TrialScene& scene, const StageElement& element) {
+    for (const std::string& language : languages_lacking(element, study_))
+      check_.warnings.push_back(
+          {scene.element->place,
+           fmt::format("scene '{}': {} has no texts in '{}'; people who read that see "
+                       "those in '{}'.",
+                       scene.id, scene.element->file, language, element.element->languages.front())});
   }
 
   void check_shown(const TrialScene& scene, const world::World& world) {

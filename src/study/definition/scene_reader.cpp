@@ -25,6 +25,16 @@ const base::Result<world::World>& SceneReader::whole(const std::string& file) {
   return worlds_.emplace(file, read_onto_stage(folder_ / file)).first->second;
 }
 
+base::Result<const StageElement*> SceneReader::element_in(const TrialPlan& plan) {
+  const TrialScene* const scene = scene_of(study_, plan);
+  if (scene == nullptr || !scene->element) return nullptr;
+  auto found = elements_.find(scene);
+  if (found == elements_.end())
+    found = elements_.emplace(scene, read_stage_element(*scene->element, folder_)).first;
+  if (!found->second) return tl::unexpected(found->second.error());
+  return &*found->second;
+}
+
 base::Result<world::World> SceneReader::in_trial(const TrialPlan& plan) {
   const TrialScene* const scene = scene_of(study_, plan);
   if (scene == nullptr || scene->file.empty())

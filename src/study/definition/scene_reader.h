@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/result.h"
+#include "study/definition/stage_element.h"
 #include "study/definition/trial_plan.h"
 #include "world/world.h"
 
@@ -20,11 +21,15 @@ class SceneReader {
   /// The world of a trial: its scene without hidden_things(). Fails also when the trial has no scene
   /// file.
   base::Result<world::World> in_trial(const TrialPlan& plan);
+  /// The element of a trial's scene, read once; null where the scene has none. Fails as read_stage_element()
+  /// does. It lives as long as the reader.
+  base::Result<const StageElement*> element_in(const TrialPlan& plan);
 
  private:
   const Study& study_;
   std::filesystem::path folder_;
   std::map<std::string, base::Result<world::World>> worlds_;  // including those that cannot be read
+  std::map<const TrialScene*, base::Result<StageElement>> elements_;
 };
 
 }  // namespace icome::study

@@ -111,6 +111,15 @@ struct Hypothesis {
 /// The method by which the order of conditions changes from person to person.
 enum class OrderMethod : std::uint8_t { Full, LatinSquare, Random, Fixed };
 
+/// A haptic element (thesis 5.7.2) that lies in a scene: people choose from it as from the scene's objects.
+struct SceneElement {
+  std::string id;                            // its widgets are called "id/name" by the task
+  std::string file;                          // an element (docs/elements.md), beside the study file
+  std::optional<base::Vector3> centre = {};  // m, stage frame; none: as its file has it
+  std::optional<double> turn = {};           // rad, about the vertical; none: as its file has it
+  Place place = {};
+};
+
 /// The scene in which a trial takes place.
 struct TrialScene {
   std::string id;
@@ -118,10 +127,11 @@ struct TrialScene {
   std::vector<std::string> needs;
   std::optional<base::Vector3> start = {};  // m, stage frame; none: that of the task
   Place place = {};
+  std::optional<SceneElement> element = {};
 };
 
-/// The task in a trial. Things are the objects of the scene, by name; * stands for any letters, and a trial
-/// variable in braces for its value: "item-{colour}".
+/// The task in a trial. Things are the objects of the scene and the widgets of its element, by name; * stands
+/// for any letters, and a trial variable in braces for its value: "cube-{colour}", "menu/{colour}".
 struct Task {
   std::string target = "target";   // choosing it ends the trial
   std::string wrong = "*";         // choosing any of these, but for the target, is an error
@@ -130,10 +140,12 @@ struct Task {
   bool forces = true;
   bool head = true;                                    // the eye follows the head, where that is tracked
   base::Vector3 start = base::Vector3(0.0, 0.0, 0.1);  // m, stage frame: the start of the pointer
-  double near = 0.01;                                  // m, the longest distance from the tip for a click
-  double depth = 0.002;                                // m, the depth of the tip for a push to count
-  double vicinity = 0.03;  // m, from the target (or the things to choose from), where approach becomes homing
-  double limit = 60.0;     // s, after which a trial is ended
+  // Where one of these is not given, that of the element counts or, of objects, the default of TrialGoal.
+  std::optional<double> near = {};   // m, the longest distance from the tip for a click
+  std::optional<double> depth = {};  // m, the depth of the tip for a push to count
+  std::optional<double> vicinity =
+      {};               // m, from the target (or what is chosen from): approach becomes homing
+  double limit = 60.0;  // s, after which a trial is ended
   Place place = {};
 };
 

@@ -8,6 +8,12 @@ constexpr double kLargestDistance = 1.0;    // m
 constexpr double kSmallestDistance = 1e-4;  // m
 constexpr double kLongestTrial = 600.0;     // s
 
+/// A distance, m; nothing if there is no such key.
+std::optional<double> read_distance(KeyReader& keys, const std::string& key) {
+  if (!keys.has(key)) return {};
+  return keys.number(key, kSmallestDistance, kSmallestDistance, kLargestDistance);
+}
+
 }  // namespace
 
 std::vector<std::string> variables_in(const std::string& name) {
@@ -41,9 +47,9 @@ std::optional<Task> read_task(KeyReader& keys, const std::vector<std::string>& l
   task.forces = part.flag("forces", task.forces);
   task.head = part.flag("head", task.head);
   task.start = read_start(part).value_or(task.start);
-  task.near = part.number("near", task.near, kSmallestDistance, kLargestDistance);
-  task.depth = part.number("depth", task.depth, kSmallestDistance, kLargestDistance);
-  task.vicinity = part.number("vicinity", task.vicinity, kSmallestDistance, kLargestDistance);
+  task.near = read_distance(part, "near");
+  task.depth = read_distance(part, "depth");
+  task.vicinity = read_distance(part, "vicinity");
   task.limit = part.number("limit", task.limit, 1.0, kLongestTrial);
   part.finish();
   return task;

@@ -48,7 +48,8 @@ base::Result<std::string> study_template(std::string_view template_name, const s
 
 std::vector<TemplateScene> template_scenes(std::string_view template_name) {
   if (template_name == "blank") return {{"scenes/pointing-room.wrl", kPointingRoom}};
-  if (template_name == "menu") return {{"scenes/menu-room.wrl", kMenuRoom}};
+  if (template_name == "menu")
+    return {{"scenes/menu-room.wrl", kMenuRoom}, {"scenes/colour-menu.toml", kColourMenu}};
   if (template_name != "head-tracking") return {};
   return {{"scenes/practice-room.wrl", kPracticeRoom},
           {"scenes/room-1.wrl", kRoom1},

@@ -14,7 +14,7 @@ std::vector<std::string> template_names();
 /// template.
 base::Result<std::string> study_template(std::string_view template_name, const std::string& name);
 
-/// A design that a template's trials take place in.
+/// A design that a template's trials take place in, or an element of one.
 struct TemplateScene {
   std::string file;  // "scenes/room-1.wrl", beside the study file
   std::string_view text;

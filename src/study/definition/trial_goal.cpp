@@ -63,6 +63,71 @@ std::string with_value(const std::string& name, const std::string& variable, con
   return full.append(name, from);
 }
 
+/// The part of a study that names the task's things, for this trial.
+struct NamesInTrial {
+  std::string target, wrong;
+  bool all_wrong = false;
+};
+
+/// Adds the element's widgets that can be chosen, in the order of the file. What only opens a menu is not
+/// wrong: it is on the way.
+void add_widgets(const TrialElement& element, const std::vector<interaction::Widget>& widgets,
+                 const NamesInTrial& names, std::vector<Thing>& things) {
+  for (const interaction::Widget& widget : widgets) {
+    if (!widget.can_be_chosen()) continue;
+    Thing thing;
+    thing.name = fmt::format("{}/{}", element.id, widget.name);
+    thing.target = is_meant(names.target, thing.name);
+    thing.wrong =
+        !thing.target && widget.widgets.empty() && (names.all_wrong || is_meant(names.wrong, thing.name));
+    thing.widget = &widget;
+    things.push_back(std::move(thing));
+    add_widgets(element, widget.widgets, names, things);
+  }
+}
+
+/// Gives widgets their place in the scene while all menus are closed.
+void place_widgets(const TrialElement& element, TrialGoal& goal) {
+  const auto layout = interaction::lay_out(*element.element, element.language, element.measure);
+  const interaction::ElementFrame frame{element.element->centre, element.element->turn};
+  for (const interaction::LaidWidget& laid : layout.widgets) {
+    const int number = goal.thing_of(*laid.widget);
+    if (number < 0) continue;
+    for (const double right : {-1.0, 1.0})
+      for (const double up : {-1.0, 1.0})
+        goal.things[std::size_t(number)].bounds.extend(
+            frame.in_world(laid.centre + laid.half.cwiseProduct(base::Vector2(right, up))));
+  }
+}
+
+/// The element as it is chosen from in a trial: by click or push alone, as the trial has it.
+interaction::Element in_trial(interaction::Element element, const Task& task, Choosing choosing) {
+  element.choosing.by_click = choosing == Choosing::Click;
+  element.choosing.by_push = choosing == Choosing::Push;
+  element.choosing.near = task.near.value_or(element.choosing.near);
+  element.choosing.recede = std::max(element.choosing.recede, 2.0 * element.choosing.near);
+  element.choosing.push_depth = task.depth.value_or(element.choosing.push_depth);
+  return element;
+}
+
+void add_element(const StageElement& stage, const Task& task, const std::string& language,
+                 const NamesInTrial& names, TrialGoal& goal) {
+  TrialElement element;
+  element.id = stage.id;
+  element.element =
+      std::make_shared<const interaction::Element>(in_trial(*stage.element, task, goal.choosing));
+  element.language = element_language(*element.element, language);
+  element.measure = stage.measure;
+  add_widgets(element, element.element->widgets, names, goal.things);
+  place_widgets(element, goal);
+  if (goal.is_in_element()) {
+    goal.near = element.element->choosing.near;
+    goal.depth = element.element->choosing.push_depth;
+    goal.vicinity = task.vicinity.value_or(goal.near);
+  }
+  goal.element = std::move(element);
+}
+
 base::Error no_target(const std::string& target, const std::vector<Thing>& things) {
   std::set<std::string> names;
   for (const Thing& thing : things) names.insert(thing.name);
@@ -73,10 +138,19 @@ base::Error no_target(const std::string& target, const std::vector<Thing>& thing
 
 }  // namespace
 
+bool TrialGoal::is_in_element() const {
+  return std::ranges::any_of(things, [](const Thing& it) { return it.target && it.widget != nullptr; });
+}
+
+int TrialGoal::thing_of(const interaction::Widget& widget) const {
+  const auto found = std::ranges::find(things, &widget, &Thing::widget);
+  return found == things.end() ? -1 : int(found - things.begin());
+}
+
 double TrialGoal::distance_to_vicinity(const base::Vector3& tip) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Thing& thing : things)
-    if (thing.target || (thing.wrong && choosing != Choosing::Touch))
+    if (thing.widget == nullptr && (thing.target || (thing.wrong && choosing != Choosing::Touch)))
       least = std::min(least, distance(thing.bounds, tip));
   return least;
 }
@@ -85,7 +159,7 @@ int TrialGoal::nearest(const base::Vector3& tip) const {
   int best = -1;
   double least = near;
   for (std::size_t i = 0; i < things.size(); ++i) {
-    if (!things[i].target && !things[i].wrong) continue;
+    if (things[i].widget != nullptr || (!things[i].target && !things[i].wrong)) continue;
     const double far = distance(things[i].bounds, tip);
     if (far > least || (far == least && best >= 0)) continue;
     least = far;
@@ -122,7 +196,7 @@ std::vector<world::ObjectId> hidden_things(const Study& study, const TrialPlan& 
 }
 
 base::Result<TrialGoal> trial_goal(const Study& study, const Participant& participant, const TrialPlan& plan,
-                                   const world::World& world) {
+                                   const world::World& world, const StageElement* element) {
   if (!study.task) return base::fail("the study has no [task]: nothing says what is to be done in a trial.");
   const Task& task = *study.task;
   const TrialScene* const scene = scene_of(study, plan);
@@ -131,27 +205,31 @@ base::Result<TrialGoal> trial_goal(const Study& study, const Participant& partic
   goal.forces = task.forces;
   goal.head = task.head;
   goal.start = scene != nullptr && scene->start ? *scene->start : task.start;
-  goal.near = task.near;
-  goal.depth = task.depth;
-  goal.vicinity = task.vicinity;
+  goal.near = task.near.value_or(goal.near);
+  goal.depth = task.depth.value_or(goal.depth);
+  goal.vicinity = task.vicinity.value_or(goal.vicinity);
   goal.limit = task.limit;
   goal.hold = study.trials.hold;
   apply_levels(study, true, participant.group, goal);
   apply_levels(study, false, plan.condition, goal);
-  const std::string target = name_in_trial(study, plan, task.target);
-  const std::string wrong = name_in_trial(study, plan, task.wrong);
+  const NamesInTrial meant{name_in_trial(study, plan, task.target), name_in_trial(study, plan, task.wrong),
+                           task.wrong == "*"};
   for (const world::ObjectId id : shaped_objects(world)) {
     const auto names = names_of(world, id);
     Thing thing;
     thing.name = names.empty() ? std::string() : names.front();
     thing.bounds = world::bounds(world, id);
-    thing.target = any_meant(target, names);
-    thing.wrong = !thing.target && (task.wrong == "*" || any_meant(wrong, names));
+    thing.target = any_meant(meant.target, names);
+    thing.wrong = !thing.target && (meant.all_wrong || any_meant(meant.wrong, names));
     thing.object = id;
     goal.things.push_back(std::move(thing));
   }
+  if (element != nullptr) add_element(*element, task, study.languages[participant.language], meant, goal);
   if (std::ranges::none_of(goal.things, &Thing::target))
-    return tl::unexpected(no_target(target, goal.things));
+    return tl::unexpected(no_target(meant.target, goal.things));
+  for (const Thing& thing : goal.things)
+    if (thing.target && thing.widget != nullptr && !thing.widget->enabled)
+      return base::fail(fmt::format("the task's target '{}' is disabled in the element.", thing.name));
   return goal;
 }
 

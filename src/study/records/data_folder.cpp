@@ -69,19 +69,24 @@ base::Result<void> write_study_files(const StudyFolder& folder, std::string_view
 
 /// The path of a scene's copy. Scenes that do not lie below the study file keep their file name, in a
 /// folder of their own, since file names from different folders may be the same.
-fs::path scene_copy(const StudyFolder& folder, const std::vector<SceneFile>& scenes, const SceneFile& scene) {
-  const fs::path normal = fs::path(scene.file).lexically_normal();
+fs::path scene_copy(const fs::path& folder, const std::vector<std::string>& files, const std::string& file) {
+  const fs::path normal = fs::path(file).lexically_normal();
   const bool below = normal.is_relative() && !normal.empty() && *normal.begin() != "..";
-  if (below) return folder.path / "stimuli" / normal;
-  const auto first = std::ranges::find(scenes, scene.file, &SceneFile::file);
-  return folder.path / "stimuli" / fmt::format("outside-{}", 1 + (first - scenes.begin())) /
-         normal.filename();
+  if (below) return folder / "stimuli" / normal;
+  const auto first = std::ranges::find(files, file);
+  return folder / "stimuli" / fmt::format("outside-{}", 1 + (first - files.begin())) / normal.filename();
+}
+
+std::vector<std::string> files_of(const std::vector<SceneFile>& scenes) {
+  std::vector<std::string> files;
+  for (const SceneFile& scene : scenes) files.push_back(scene.file);
+  return files;
 }
 
 /// Keeps a copy of a scene. Scenes are part of what people are shown: like the study, they must not change.
 base::Result<void> keep_scene(const StudyFolder& folder, const std::vector<SceneFile>& scenes,
                               const SceneFile& scene, bool anew) {
-  const fs::path copy = scene_copy(folder, scenes, scene);
+  const fs::path copy = scene_copy(folder.path, files_of(scenes), scene.file);
   const auto before = read_whole(copy);
   if (!before) return tl::unexpected(before.error());
   if (*before && **before == scene.bytes) return {};
@@ -311,6 +316,20 @@ base::Result<SessionLog> DataFolder::open_log(const Participant& participant) {
   auto log = SessionLog::Parts::create(parts_->open, *known);
   if (!log) return tl::unexpected(log.error());
   return SessionLog(std::move(*log));
+}
+
+std::vector<std::string> stage_files(const Study& study) {
+  std::vector<TrialScene> scenes = study.trials.scenes;
+  if (study.trials.practice_scene) scenes.push_back(*study.trials.practice_scene);
+  std::vector<std::string> files;
+  for (const TrialScene& scene : scenes) files.push_back(scene.file);
+  for (const TrialScene& scene : scenes)
+    if (scene.element) files.push_back(scene.element->file);
+  return files;
+}
+
+fs::path kept_file(const Study& study, const fs::path& data_folder, const std::string& file) {
+  return scene_copy(data_folder, stage_files(study), file);
 }
 
 }  // namespace icome::study

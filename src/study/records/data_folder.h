@@ -93,6 +93,12 @@ struct StudyData {
   std::vector<std::string> notices;  // missing or damaged parts of the data, for people to read
 };
 
+/// The files of the study's scenes and of their elements, beside the study file; some of them more than once.
+std::vector<std::string> stage_files(const Study& study);
+/// The copy of one of these in the folder of the study's data.
+std::filesystem::path kept_file(const Study& study, const std::filesystem::path& data_folder,
+                                const std::string& file);
+
 /// Reads a folder without changing it. Fails, naming file and line, on anything that is not data of a study.
 base::Result<StudyData> read_study_data(const std::filesystem::path& folder);
 

@@ -163,7 +163,10 @@ Columns measured_columns() {
       {"onset", "Of the start, since the person's session began.", "s"},
       {"completed", "No: it was ended by the time limit.", "", {{"yes", "completed"}, {"no", "given up"}}},
       {"time", "From the start to the end.", "s"},
-      {"approach_time", "From the start until the pointer first came into the vicinity.", "s"},
+      {"approach_time",
+       "From the start until the pointer first came into the vicinity of the target or, where one thing is "
+       "chosen from several, of any of these; of an element: near its plane and before it.",
+       "s"},
       {"homing_time", "From then to the end.", "s"},
       {"distance", "That the pointer covered from the start on.", "m"},
       {"errors", "Wrong touches or choices."},

@@ -60,7 +60,10 @@ struct Sample {
   base::Vector3 scp = base::Vector3::Zero();                    // m, equal to the tip if nothing is touched
   base::Vector3 force = base::Vector3::Zero();                  // N, on the hand
   std::uint32_t buttons = 0;                                    // bit i: button i is down
-  int touched = -1;                                             // index of Trace::things, or -1
+  // Indices of Trace::things, or -1.
+  int touched = -1;  // what the tip is against, or pressed into
+  int lit = -1;      // what would be chosen now
+  int chosen = -1;   // what was chosen in this tick, right or wrong
 };
 
 /// The movement of the pointer in six degrees of freedom, over a whole trial.

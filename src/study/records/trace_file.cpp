@@ -20,7 +20,7 @@ struct Channel {
   const char* unit;
 };
 
-constexpr std::array<Channel, 16> kChannels = {{
+constexpr std::array<Channel, 18> kChannels = {{
     {"latency", "n/a", "LATENCY", "n/a", "s"},
     {"tip_x", "x", "POS", "tip", "m"},
     {"tip_y", "y", "POS", "tip", "m"},
@@ -37,6 +37,8 @@ constexpr std::array<Channel, 16> kChannels = {{
     {"force_z", "z", "MISC", "tip", "N"},
     {"buttons", "n/a", "MISC", "n/a", "n/a"},
     {"touched", "n/a", "MISC", "n/a", "n/a"},
+    {"lit", "n/a", "MISC", "n/a", "n/a"},
+    {"chosen", "n/a", "MISC", "n/a", "n/a"},
 }};
 
 /// Digits that no device has are noise that fills disks, so steps are 0.1 um, 0.1 uN and 0.1 us.
@@ -44,7 +46,7 @@ constexpr double kStepsAUnit = 1e7;
 
 double rounded(double number) { return std::round(number * kStepsAUnit) / kStepsAUnit; }
 
-/// Adds a row with the sixteen numbers of a sample.
+/// Adds a row with the numbers of a sample.
 void add_sample(const Sample& sample, fmt::memory_buffer& table) {
   const base::Quaternion& q = sample.orientation;
   const std::array<double, 14> numbers = {sample.time,
@@ -68,7 +70,8 @@ void add_sample(const Sample& sample, fmt::memory_buffer& table) {
       fmt::format_to(std::back_inserter(table), FMT_COMPILE("{}\t"), kNotAvailable);
     }
   }
-  fmt::format_to(std::back_inserter(table), FMT_COMPILE("{}\t{}\n"), sample.buttons, sample.touched);
+  fmt::format_to(std::back_inserter(table), FMT_COMPILE("{}\t{}\t{}\t{}\n"), sample.buttons, sample.touched,
+                 sample.lit, sample.chosen);
 }
 
 }  // namespace
@@ -91,7 +94,8 @@ Columns channel_columns(bool simulated) {
          {"ORNT", "The quaternion that turns the frame of the stylus to that of the stage."},
          {"MISC",
           "Forces on the hand in the frame of the stage; the buttons that are down (bit i: "
-          "button i); the thing that is touched, or -1."}}},
+          "button i); the thing that is touched, the one that is lit as it would be chosen, and the one "
+          "that was chosen in that sample, by click, push or touch; each or -1."}}},
        {"tracked_point", "tip: the pointer; scp: its surface contact point."},
        {"units", "Of SI."}},
       simulated);

@@ -121,6 +121,27 @@ PersonTable measured_table(const StudyData& data, const DependentVariable& varia
   return table;
 }
 
+TrialList measured_trials(const StudyData& data, const DependentVariable& variable, TrialChoice choice) {
+  const PersonTable table = empty_table(data, true);
+  const double scale = measured_unit(variable).scale;
+  TrialList list;
+  list.levels.resize(data.study.independent.size());
+  for (std::size_t row = 0; row < table.people.size(); ++row) {
+    for (std::size_t condition = 0; condition < table.columns.size(); ++condition) {
+      for (const TrialRecord* const trial :
+           trials_of(data, data.people[table.people[row]].progress, condition, choice)) {
+        list.values.push_back(scale * measured_value(trial->measures, variable.from));
+        for (std::size_t i = 0; i < list.levels.size(); ++i) {
+          const IndependentVariable& factor = data.study.independent[i];
+          list.levels[i].push_back(factor.between ? table.groups[row][place_of(table.between, factor)]
+                                                  : table.columns[condition][place_of(table.within, factor)]);
+        }
+      }
+    }
+  }
+  return list;
+}
+
 bool find_item(const Study& study, const std::string& from, ItemPlace& place) {
   for (std::size_t i = 0; i < study.questionnaires.size(); ++i) {
     const Questionnaire& questionnaire = study.questionnaires[i];

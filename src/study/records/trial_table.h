@@ -38,6 +38,14 @@ bool is_measured(const DependentVariable& variable);
 PersonTable measured_table(const StudyData& data, const DependentVariable& variable, TrialChoice choice,
                            TrialSum sum = TrialSum::Mean);
 
+/// Measured trials of all people, each an observation of its own; of people and conditions as
+/// measured_table() has them.
+struct TrialList {
+  std::vector<std::vector<std::size_t>> levels;  // of each of Study::independent, one a trial
+  std::vector<double> values;  // in the variable's measured_unit(), NaN for the time of one that has none
+};
+TrialList measured_trials(const StudyData& data, const DependentVariable& variable, TrialChoice choice);
+
 /// The place of a question in its study.
 struct ItemPlace {
   std::size_t questionnaire = 0, item = 0;

@@ -53,6 +53,8 @@ struct TrialStage::Parts {
   void load();
   void hear(const SessionEvent& event);
   void begin_seeking();
+  base::Result<TrialGoal> read_goal();
+  base::Result<void> open_element(const TrialGoal& goal);
   void hide_things();
   void bring_back();
   void show_start();
@@ -98,6 +100,7 @@ void TrialStage::Parts::leave() {
   session.hands().trace(false);
   session.hands().hold_pointer({});
   session.hands().give_forces(true);
+  session.menu().close();
   light(-1);
   watch.reset();
   show_start();
@@ -132,15 +135,31 @@ void TrialStage::Parts::hear(const SessionEvent& event) {
   begin_seeking();
 }
 
+base::Result<TrialGoal> TrialStage::Parts::read_goal() {
+  const TrialScene* const scene = scene_of(study, plan);
+  if (!scene->element) return trial_goal(study, participant, plan, session.world());
+  const auto element = read_stage_element(*scene->element, folder);
+  if (!element) return tl::unexpected(element.error());
+  return trial_goal(study, participant, plan, session.world(), &*element);
+}
+
+/// Opens the trial's element in the session, where it is seen and felt. What counts is what the watch's own
+/// use of it makes of each tick; both have the same pointer and the same settings.
+base::Result<void> TrialStage::Parts::open_element(const TrialGoal& goal) {
+  if (!goal.element) return {};
+  const interaction::Element& element = *goal.element->element;
+  return session.menu().open(element, element.languages[goal.element->language], {});
+}
+
 void TrialStage::Parts::begin_seeking() {
   hide_things();
-  auto goal = trial_goal(study, participant, plan, session.world());
+  auto goal = read_goal();
   if (!goal) return fail(goal.error().message);
   session.settle();
   thing_numbers.clear();
   trace = {};
   for (const Thing& thing : goal->things) {
-    thing_numbers[thing.object] = int(trace.things.size());
+    if (thing.widget == nullptr) thing_numbers[thing.object] = int(trace.things.size());
     trace.things.push_back(thing.name);
   }
   trace.rate_hz = session.hands().servo().rate_hz;
@@ -151,6 +170,7 @@ void TrialStage::Parts::begin_seeking() {
   session.view().set(interaction::fitted(session.view().now(), all, kTowardEye, base::Vector3::UnitY(),
                                          session.view().aspect()));
   session.view().follow_head(goal->head);
+  if (const auto opened = open_element(*goal); !opened) return fail(opened.error().message);
   watch.emplace(std::move(*goal));
   session.hands().take_trace();  // the rest of another trial
   lost_before = session.hands().take_trace().lost;
@@ -182,7 +202,8 @@ void TrialStage::Parts::show_start() {
 
 void TrialStage::Parts::light(int thing) {
   std::vector<world::ObjectId> lit;
-  if (watch && thing >= 0) lit.push_back(watch->goal().things[std::size_t(thing)].object);
+  const bool is_object = watch && thing >= 0 && !watch->goal().things[std::size_t(thing)].widget;
+  if (is_object) lit.push_back(watch->goal().things[std::size_t(thing)].object);
   if (session.selection() != lit) session.select(lit);
 }
 

@@ -17,12 +17,20 @@ double in_millionths(double value) { return std::round(value * 1e6) / 1e6; }
 
 }  // namespace
 
+TrialWatch::TrialWatch(TrialGoal goal)
+    : goal_(std::move(goal)), touched_at_(goal_.things.size(), kNeverTouched) {
+  if (goal_.element)
+    element_.emplace(*goal_.element->element, goal_.element->language, goal_.element->measure);
+}
+
 double TrialWatch::hold_left() const {
   return state_ == State::Holding ? std::max(0.0, goal_.hold - (now_ - caught_)) : 0.0;
 }
 
-TrialWatch::State TrialWatch::step(const Sample& tick) {
+TrialWatch::State TrialWatch::step(const Sample& reading) {
+  Sample tick = reading;
   now_ = tick.time;
+  follow_element(tick);
   if (state_ == State::Seeking && (tick.tip - goal_.start).norm() <= kCatch) {
     state_ = State::Holding;
     caught_ = now_;
@@ -44,6 +52,27 @@ TrialWatch::State TrialWatch::step(const Sample& tick) {
   return state_;
 }
 
+/// Lets the pointer do its work on the element, before the start, too: menus that it opens are open then. A
+/// pointer that is pressed into the ground touches the widget there.
+void TrialWatch::follow_element(Sample& tick) {
+  of_element_ = -1;
+  if (!element_ || state_ == State::Over) return;
+  if (const auto choice = element_->point({tick.time, tick.tip, (tick.buttons & 1U) != 0}))
+    of_element_ = goal_.thing_of(*choice->widget);
+  const interaction::ElementFrame& frame = element_->frame();
+  const double front = frame.front_distance(tick.tip);
+  if (tick.touched >= 0 || element_->side() != haptics::PanelSide::Front || front >= 0.0) return;
+  const interaction::LaidWidget* const pressed = element_->layout().at(frame.projected(tick.tip));
+  if (pressed == nullptr) return;
+  tick.touched = goal_.thing_of(*pressed->widget);
+  if (tick.touched >= 0) tick.scp = tick.tip - front * frame.size * frame.normal();
+}
+
+bool TrialWatch::is_approached(const base::Vector3& tip) const {
+  return goal_.is_in_element() ? is_in_vicinity(*element_, tip, goal_.vicinity)
+                               : goal_.distance_to_vicinity(tip) <= goal_.vicinity;
+}
+
 void TrialWatch::start(double time) {
   state_ = State::Running;
   start_ = time;
@@ -54,11 +83,13 @@ void TrialWatch::run(const Sample& tick) {
   const double time = now_ - start_;
   samples_.back().time = time;
   measures_.distance += (tick.tip - tip_).norm();
-  if (!approached_ && goal_.distance_to_vicinity(tick.tip) <= goal_.vicinity) {
+  if (!approached_ && is_approached(tick.tip)) {
     approached_ = true;
     measures_.approach_time = time;
   }
   const int choice = chosen(tick);
+  samples_.back().lit = lit_;
+  samples_.back().chosen = choice;
   if (choice >= 0 && goal_.things[std::size_t(choice)].target) return end(true, time);
   if (choice >= 0 && goal_.things[std::size_t(choice)].wrong) ++measures_.errors;
   if (time >= goal_.limit) end(false, time);
@@ -77,13 +108,16 @@ void TrialWatch::end(bool completed, double time) {
 /// The thing chosen in this tick; -1: none.
 int TrialWatch::chosen(const Sample& tick) {
   const bool pressed = (tick.buttons & ~buttons_ & 1U) != 0;
-  if (goal_.choosing == Choosing::Click) {
-    lit_ = goal_.nearest(tick.tip);
-    return pressed ? lit_ : -1;
-  }
   const int touched = touched_anew(tick);
   if (goal_.choosing == Choosing::Touch) return touched;
+  // An element that is near is before what lies behind it.
+  const bool at_element = element_ && element_->is_near();
+  if (at_element) {
+    lit_ = element_->lit() ? goal_.thing_of(*element_->lit()) : -1;
+    return of_element_;
+  }
   lit_ = goal_.nearest(tick.tip);
+  if (goal_.choosing == Choosing::Click) return pressed ? lit_ : -1;
   return pushed(tick);
 }
 
@@ -110,7 +144,9 @@ int TrialWatch::touched_anew(const Sample& tick) {
 
 /// The thing pushed in this tick; -1: none. Each contact is one push at most.
 int TrialWatch::pushed(const Sample& tick) {
-  if (tick.touched < 0 || pushed_ || (tick.tip - tick.scp).norm() < goal_.depth) return -1;
+  if (tick.touched < 0 || goal_.things[std::size_t(tick.touched)].widget != nullptr || pushed_ ||
+      (tick.tip - tick.scp).norm() < goal_.depth)
+    return -1;
   pushed_ = true;
   return tick.touched;
 }

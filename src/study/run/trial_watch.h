@@ -10,8 +10,7 @@ class TrialWatch {
  public:
   enum class State : std::uint8_t { Seeking, Holding, Running, Over };
 
-  explicit TrialWatch(TrialGoal goal)
-      : goal_(std::move(goal)), touched_at_(goal_.things.size(), kNeverTouched) {}
+  explicit TrialWatch(TrialGoal goal);
 
   /// Takes the next tick; its time counts from any origin, s, and never goes back. The touched thing is an
   /// index of the goal's things, or -1. The pointer is caught within 1 cm of the start.
@@ -23,6 +22,8 @@ class TrialWatch {
 
   State state() const { return state_; }
   const TrialGoal& goal() const { return goal_; }
+  /// The element of the scene as the pointer has it; null: the scene has none.
+  const interaction::ElementUse* element() const { return element_ ? &*element_ : nullptr; }
   /// The time until the pointer is released, s; 0 unless Holding.
   double hold_left() const;
   /// The thing that would be chosen now, to be lit up; -1: none.
@@ -36,6 +37,8 @@ class TrialWatch {
   static constexpr double kNeverTouched = -1e9;  // s
   void start(double time);
   void run(const Sample& tick);
+  void follow_element(Sample& tick);
+  bool is_approached(const base::Vector3& tip) const;
   int chosen(const Sample& tick);
   std::size_t whole_of(int part) const;
   bool is_same(int one, int other) const;
@@ -44,6 +47,7 @@ class TrialWatch {
   void end(bool completed, double time);
 
   TrialGoal goal_;
+  std::optional<interaction::ElementUse> element_;  // refers to that of the goal
   State state_ = State::Seeking;
   double caught_ = 0.0, now_ = 0.0, start_ = 0.0;  // s
   std::vector<Sample> samples_;
@@ -51,6 +55,7 @@ class TrialWatch {
   bool released_ = false;
   bool approached_ = false;
   int lit_ = -1;
+  int of_element_ = -1;  // thing of the element that was chosen in this tick
   // The state at the last tick or before.
   base::Vector3 tip_ = base::Vector3::Zero();
   std::uint32_t buttons_ = 0;

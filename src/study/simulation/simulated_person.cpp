@@ -9,6 +9,7 @@
 
 #include "devices/simulated/simulated_device.h"
 #include "haptics/servo/servo.h"
+#include "session/elements/felt_sheets.h"
 #include "study/run/trial_watch.h"
 #include "study/simulation/route.h"
 
@@ -27,6 +28,7 @@ constexpr double kTouchTime = 0.25;      // s, of the last bit of a touch
 constexpr double kPushTime = 0.6;        // s, of a push
 constexpr double kPushSurplus = 6.0;     // times the depth: surfaces push back
 constexpr double kEyeDistance = 0.5;     // m, from the eyes to the scene
+constexpr int kTicksAFrame = 16;         // after which the element's sheets are followed, as by a display
 constexpr int kYoungest = 18, kOldest = 65;
 
 std::uint64_t mixed(std::uint64_t seed, std::initializer_list<std::uint64_t> parts) {
@@ -76,15 +78,19 @@ class SimulatedTrialRun {
         hand_(hand_settings()),
         servo_(hand_, servo_settings(goal.start)),
         at_(goal.start) {
-    for (std::size_t i = 0; i < goal.things.size(); ++i) numbers_[goal.things[i].object] = int(i);
+    for (std::size_t i = 0; i < goal.things.size(); ++i)
+      if (goal.things[i].widget == nullptr) numbers_[goal.things[i].object] = int(i);
     servo_.publish(where.scene);
     servo_.give_forces(goal.forces);
     for (int axis = 0; axis < 3; ++axis) {
       phase_[axis] = random_.uniform(0.0, 2.0 * std::numbers::pi);
       frequency_[axis] = model_.tremor_hz * random_.uniform(0.9, 1.1);
+      amplitude_[axis] = std::numbers::sqrt2 * model_.arm.tremor / gain_at(frequency_[axis]);
     }
     find_goal();
   }
+  SimulatedTrialRun(const SimulatedTrialRun&) = delete;
+  SimulatedTrialRun& operator=(const SimulatedTrialRun&) = delete;
 
   SimulatedPerson::Run go() {
     while (watch_.state() != TrialWatch::State::Holding) tick();
@@ -92,6 +98,7 @@ class SimulatedTrialRun {
     watch_.release();
     rest(model_.reaction);
     while (!over()) {
+      find_goal();
       for (const Vector3& corner : route(at_, hover_, obstacles_, kClearance)) move(corner, corner == hover_);
       choose();
       rest(model_.correction);
@@ -119,8 +126,49 @@ class SimulatedTrialRun {
     return settings;
   }
 
-  /// Finds the face of the target that is turned to the start.
+  /// Finds the face that the hand is to come to.
   void find_goal() {
+    obstacles_.clear();
+    for (const Thing& thing : watch_.goal().things)
+      if (!thing.target && thing.widget == nullptr) obstacles_.push_back(thing.bounds);
+    watch_.goal().is_in_element() ? find_widget() : find_object();
+    hover_ = surface_ + kHover * outward_;
+  }
+
+  /// The widget to aim at now: the target or, while the menu that it is in is closed, the item that leads
+  /// there and can be seen.
+  const interaction::LaidWidget* aim_at(const std::vector<interaction::Widget>& widgets) const {
+    const auto& laid = watch_.element()->layout().widgets;
+    for (const interaction::Widget& widget : widgets) {
+      const int number = watch_.goal().thing_of(widget);
+      const interaction::LaidWidget* found = aim_at(widget.widgets);
+      const bool is_target = number >= 0 && watch_.goal().things[std::size_t(number)].target;
+      if (found == nullptr && !is_target && !leads_to_target(widget)) continue;
+      const auto seen = std::ranges::find(laid, &widget, &interaction::LaidWidget::widget);
+      if (found == nullptr && seen != laid.end()) found = &*seen;
+      if (found != nullptr) return found;
+    }
+    return nullptr;
+  }
+
+  bool leads_to_target(const interaction::Widget& widget) const {
+    return std::ranges::any_of(widget.widgets, [&](const interaction::Widget& below) {
+      const int number = watch_.goal().thing_of(below);
+      return (number >= 0 && watch_.goal().things[std::size_t(number)].target) || leads_to_target(below);
+    });
+  }
+
+  /// Comes to an element from its front, from where it is felt and pushed.
+  void find_widget() {
+    const interaction::LaidWidget* const laid = aim_at(watch_.element()->element().widgets);
+    const interaction::ElementFrame& frame = watch_.element()->frame();
+    outward_ = frame.normal();
+    surface_ = frame.in_world(laid->centre);
+    tolerance_ = std::max(std::min(kWayTolerance, frame.size * laid->half.minCoeff()), 1e-4);
+  }
+
+  /// Finds the face of the target that is turned to the start.
+  void find_object() {
     const TrialGoal& goal = watch_.goal();
     base::Bounds target;
     for (const Thing& thing : goal.things)
@@ -133,12 +181,19 @@ class SimulatedTrialRun {
     outward_ = Vector3::Zero();
     outward_[facing] = toward[facing] < 0.0 ? -1.0 : 1.0;
     surface_ = target.center() + half[facing] * outward_;
-    hover_ = surface_ + kHover * outward_;
     tolerance_ = kWayTolerance;
     for (int axis = 0; axis < 3; ++axis)
       if (axis != facing) tolerance_ = std::min(tolerance_, std::max(half[axis], 1e-4));
-    for (const Thing& thing : goal.things)
-      if (!thing.target) obstacles_.push_back(thing.bounds);
+  }
+
+  /// The share of a motion at a frequency (Hz) that a hand with the device in it follows in free air. The
+  /// model's tremor is that of the tip, which this would change.
+  static double gain_at(double frequency) {
+    const devices::SimulatedSettings settings = hand_settings();
+    const double w = 2.0 * std::numbers::pi * frequency;
+    const double mass = settings.info.effective_mass + settings.hand.mass;
+    const double spring = settings.hand.stiffness;
+    return spring / std::hypot(spring - mass * w * w, settings.hand.damping * w);
   }
 
   bool over() const { return watch_.state() == TrialWatch::State::Over; }
@@ -146,7 +201,7 @@ class SimulatedTrialRun {
   Vector3 tremor() const {
     Vector3 off;
     for (int axis = 0; axis < 3; ++axis)
-      off[axis] = std::numbers::sqrt2 * model_.arm.tremor *
+      off[axis] = amplitude_[axis] *
                   std::sin(2.0 * std::numbers::pi * frequency_[axis] * hand_.time() + phase_[axis]);
     return off;
   }
@@ -163,6 +218,13 @@ class SimulatedTrialRun {
     sample.buttons = report.buttons;
     if (report.contact.touching) sample.touched = number_of(report.object);
     watch_.step(sample);
+    feel_element();
+  }
+
+  /// Lets the hand feel the element's sheets, as a session does for people.
+  void feel_element() {
+    if (watch_.element() == nullptr || ticks_++ % kTicksAFrame != 0) return;
+    if (sheets_.follow(watch_.element(), hand_.time())) servo_.publish_effects(sheets_.effects());
   }
 
   int number_of(base::ObjectId felt) const {
@@ -232,12 +294,14 @@ class SimulatedTrialRun {
   TrialWatch watch_;
   devices::SimulatedDevice hand_;
   haptics::Servo servo_;
+  session::FeltSheets sheets_;
+  int ticks_ = 0;
   std::map<world::ObjectId, int> numbers_;
   std::vector<base::Bounds> obstacles_;
   Vector3 at_;  // the intended place of the hand, without its tremor; m, stage frame
   Vector3 outward_, surface_, hover_;
   double tolerance_ = kWayTolerance;
-  Vector3 phase_, frequency_;  // rad, Hz: of the tremor, by axis
+  Vector3 phase_, frequency_, amplitude_;  // rad, Hz, m: of the tremor that the hand intends, by axis
 };
 
 }  // namespace

@@ -27,6 +27,8 @@ class SimulatedPerson {
  public:
   SimulatedPerson(const Study& study, std::uint64_t number);
 
+  const interaction::PersonModel& model() const { return model_; }
+
   /// Answers to the control variables: any level, any whole number from 18 to 65.
   static std::vector<std::string> control(const Study& study, std::uint64_t number);
   /// Random answers, drawn for this questionnaire and position.

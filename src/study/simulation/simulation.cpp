@@ -54,7 +54,9 @@ class SimulatedSession {
     }
     const auto world = scenes_.in_trial(now.trial);
     if (!world) return tl::unexpected(world.error());
-    const auto goal = trial_goal(study_, run.participant(), now.trial, *world);
+    const auto element = scenes_.element_in(now.trial);
+    if (!element) return tl::unexpected(element.error());
+    const auto goal = trial_goal(study_, run.participant(), now.trial, *world, *element);
     if (!goal) return tl::unexpected(goal.error());
     session::HapticRepresentation felt;
     felt.open(*world);

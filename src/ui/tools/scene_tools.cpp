@@ -266,7 +266,7 @@ bool SceneTools::arrow(int key, Qt::KeyboardModifiers modifiers, bool repeats) {
 
 bool SceneTools::key_press(int key, Qt::KeyboardModifiers modifiers, bool repeats) {
   if (modifiers & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier)) return false;
-  if (session_.menu().use() != nullptr && menu_key(key)) return true;
+  if (!stays_ && session_.menu().use() != nullptr && menu_key(key)) return true;
   switch (key) {
     case Qt::Key_Escape:
       return escape();

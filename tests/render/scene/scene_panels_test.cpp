@@ -82,6 +82,25 @@ TEST(ScenePanels, LieInTheSceneWhereTheyAreToldToAndOverAll) {
   EXPECT_FALSE(is_red(seen_at(-1.1, 0.5)));
 }
 
+// The pointer at a menu is seen, wherever the menu lies in depth; a name beside it is over both.
+TEST(ScenePanels, OfTheSceneAreBehindMarkersAndOthersBefore) {
+  const auto scene = ScenePublisher().publish({});
+  const Camera camera = camera_at({0.0, 0.0, 3.0});
+  SceneLook look = plain_look();
+  look.overlay.panels.push_back({.picture = picture(64, 64, kRedPixel, kRedPixel),
+                                 .at = Vector3(0.0, 0.0, 0.0),
+                                 .lying = {{0.6 * Vector3::UnitX(), 0.6 * Vector3::UnitY()}}});
+  look.overlay.balls.push_back({Vector3(0.0, 0.0, 0.3), 0.2, charts::Colour{0.0, 0.0, 0.9}});
+  charts::Image image = LiveRenderer().draw(*scene, camera, look);
+  EXPECT_TRUE(is_blue(middle(image)));
+  const auto beside = project(camera, Vector3(0.4, 0.4, 0.0));
+  EXPECT_TRUE(is_red(at_share(image, beside->x, beside->y)));
+  look.overlay.panels.push_back(
+      {.picture = picture(9, 9, kGreenPixel, kGreenPixel), .at = Vector3(0.0, 0.0, 0.0)});
+  image = LiveRenderer().draw(*scene, camera, look);
+  EXPECT_TRUE(is_green(middle(image)));
+}
+
 TEST(ScenePanels, AreMixedByTheirAlphaAndScaled) {
   const auto scene = ScenePublisher().publish({});
   SceneLook look = plain_look();

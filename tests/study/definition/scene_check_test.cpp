@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "study/trial_scenes.h"
+#include "study/box_menu.h"
 
 namespace icome::study {
 namespace {
@@ -43,14 +43,14 @@ TEST(SceneCheck, EveryValueOfATrialIsLookedAt) {
   study.trials.variables[0].values[3].id = "pink";
   const StudyCheck one = checked(folder, study);
   ASSERT_EQ(one.reasons.size(), 1U);
-  EXPECT_NE(one.reasons[0].sentence.find("the task's target is 'item-pink'"), std::string::npos);
+  EXPECT_NE(one.reasons[0].sentence.find("the task's target is 'menu/pink'"), std::string::npos);
   EXPECT_EQ(one.reasons[0].sentence.find("either"), std::string::npos);
   ASSERT_EQ(one.warnings.size(), 1U);
   EXPECT_NE(one.warnings[0].sentence.find("the task shows 'cube-pink', and nothing"), std::string::npos);
   study.trials.variables[0].values[5].id = "brown";
   const StudyCheck two = checked(folder, study);
   ASSERT_EQ(two.reasons.size(), 1U);
-  EXPECT_NE(two.reasons[0].sentence.find("Trials with 'item-brown' as the target have none either."),
+  EXPECT_NE(two.reasons[0].sentence.find("Trials with 'menu/brown' as the target have none either."),
             std::string::npos);
 }
 
@@ -61,7 +61,7 @@ TEST(SceneCheck, OfManyCombinationsEachValueIsLookedAt) {
   other.id = "size";
   other.values.resize(200, {"big", {"Big"}, {}, {}});
   study.trials.variables.push_back(other);
-  study.task->wrong = "item-{size}";
+  study.task->wrong = "menu/{size}";
   EXPECT_TRUE(checked(folder, study).reasons.empty());
   study.trials.variables[0].values[6].id = "pink";
   EXPECT_EQ(checked(folder, study).reasons.size(), 1U);
@@ -125,6 +125,36 @@ TEST(SceneCheck, ScenesWithoutFilesAndStudiesWithoutTaskAreForOtherChecks) {
   study.trials.scenes[0].file.clear();
   EXPECT_TRUE(checked(folder, study).reasons.empty());
   EXPECT_TRUE(checked(folder, study).warnings.empty());
+}
+
+TEST(SceneCheck, AMenuOfBoxesIsStillOne) {
+  const BoxMenuFolder folder;
+  StudyCheck check;
+  check_scenes(folder.study, folder.path(), check);
+  EXPECT_TRUE(check.reasons.empty()) << check.reasons[0].sentence;
+  EXPECT_TRUE(check.warnings.empty());
+}
+
+TEST(SceneCheck, AnElementThatCannotBeReadIsTold) {
+  const TemplateFolder folder("menu");
+  std::ofstream(folder.path() / "scenes/colour-menu.toml", std::ios::trunc) << "[[item]]\nnmae = \"red\"\n";
+  const StudyCheck check = checked(folder, folder.study());
+  ASSERT_EQ(check.reasons.size(), 1U);
+  EXPECT_NE(check.reasons[0].sentence.find("colour-menu.toml:2:1"), std::string::npos)
+      << check.reasons[0].sentence;
+  EXPECT_EQ(check.reasons[0].place.line, folder.study().trials.scenes[0].element->place.line);
+  std::filesystem::remove(folder.path() / "scenes/colour-menu.toml");
+  EXPECT_EQ(checked(folder, folder.study()).reasons.size(), 1U);
+}
+
+TEST(SceneCheck, ALanguageThatAnElementLacksIsWorthAThought) {
+  const TemplateFolder folder("menu");
+  Study study = folder.study();
+  study.languages.push_back("fr");
+  const StudyCheck check = checked(folder, study);
+  EXPECT_TRUE(check.reasons.empty());
+  ASSERT_EQ(check.warnings.size(), 1U);
+  EXPECT_NE(check.warnings[0].sentence.find("has no texts in 'fr'"), std::string::npos);
 }
 
 }  // namespace

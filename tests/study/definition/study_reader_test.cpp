@@ -87,7 +87,13 @@ TEST(StudyReader, ReadsTheCaseStudies) {
 TEST(StudyReader, ReadsWhatATrialAsksFor) {
   const Study study = read_study(study_template("menu", "x").value(), "s.toml").value();
   ASSERT_TRUE(study.task);
-  EXPECT_EQ(study.task->target, "item-{colour}");
+  EXPECT_EQ(study.task->target, "menu/{colour}");
+  EXPECT_FALSE(study.task->near);  // as the element has it
+  ASSERT_TRUE(study.trials.scenes[0].element);
+  EXPECT_EQ(study.trials.scenes[0].element->id, "menu");
+  EXPECT_EQ(study.trials.scenes[0].element->file, "scenes/colour-menu.toml");
+  EXPECT_EQ(study.trials.scenes[0].element->centre, base::Vector3(0.06, 0.003, -0.037));
+  EXPECT_FALSE(study.trials.scenes[0].element->turn);
   EXPECT_EQ(study.task->shown, std::vector<std::string>{"cube-{colour}"});
   EXPECT_EQ(study.task->start, base::Vector3(-0.03, -0.02, 0.1));
   EXPECT_EQ(study.task->choosing, Choosing::Touch);
@@ -103,6 +109,22 @@ TEST(StudyReader, TasksThatCannotBeAreTold) {
   EXPECT_NE(with("target = \"item-{colour}\"").find("names a trial variable that is not there"),
             std::string::npos);
   EXPECT_NE(with("limit = 0").find("limit"), std::string::npos);
+}
+
+TEST(StudyReader, ElementsOfScenesThatCannotBeAreTold) {
+  const std::string menu = study_template("menu", "x").value();
+  const auto with = [&](const std::string& element) {
+    std::string text = menu;
+    const std::size_t begin = text.find("element = {"), end = text.find("} }]", begin);
+    return error_of(text.replace(begin, end + 1 - begin, "element = " + element));
+  };
+  EXPECT_NE(with("{ id = \"menu\" }").find("file"), std::string::npos);
+  EXPECT_NE(with("{ id = \"a b\", file = \"m.toml\" }").find("id"), std::string::npos);
+  EXPECT_NE(with("{ id = \"menu\", file = \"m.toml\", turn = 4 }").find("'turn_deg'"), std::string::npos);
+  EXPECT_NE(with("{ id = \"menu\", file = \"m.toml\", turn_deg = 400 }").find("turn_deg"), std::string::npos);
+  EXPECT_NE(with("{ id = \"menu\", file = \"m.toml\", centre = [1, 2] }").find("three numbers"),
+            std::string::npos);
+  EXPECT_NE(with("\"m.toml\"").find("element"), std::string::npos);
 }
 
 TEST(StudyReader, WhatIsNoTomlIsToldWithItsPlace) {

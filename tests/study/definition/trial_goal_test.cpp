@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "interaction/object_edits.h"
+#include "study/box_menu.h"
 #include "study/small_study.h"
-#include "study/trial_scenes.h"
+#include "study/trial_menus.h"
 #include "world/edit/edit.h"
 
 namespace icome::study {
@@ -47,9 +49,9 @@ TEST(TrialGoal, RoomsGrowMoreComplex) {
 }
 
 TEST(TrialGoal, OneCubeIsShownAndItsItemIsTheTarget) {
-  const TemplateFolder folder("menu");
-  const Study& study = folder.study();
-  world::World world = folder.scene("menu-room.wrl");
+  const BoxMenuFolder folder;
+  const Study& study = folder.study;
+  world::World world = folder.scene();
   const TrialPlan plan = measured_trial(study, {}, 0, 0);
   const auto hidden = hidden_things(study, plan, world);
   EXPECT_EQ(hidden.size(), 6U);
@@ -65,9 +67,9 @@ TEST(TrialGoal, OneCubeIsShownAndItsItemIsTheTarget) {
 }
 
 TEST(TrialGoal, LevelsOfGroupAndConditionSayHowThingsAreChosen) {
-  const TemplateFolder folder("menu");
-  const Study& study = folder.study();
-  const world::World world = folder.scene("menu-room.wrl");
+  const BoxMenuFolder folder;
+  const Study& study = folder.study;
+  const world::World world = folder.scene();
   Participant person;
   TrialPlan plan = measured_trial(study, person, 0, 0);
   for (const std::size_t group : {0U, 1U}) {
@@ -113,6 +115,69 @@ TEST(TrialGoal, TheNearestOfEquallyNearThingsIsTheFirst) {
       {"floor", box, false, false, {}}, {"one", box, false, true, {}}, {"two", box, true, false, {}}};
   EXPECT_EQ(goal.nearest(base::Vector3(0, 0, 1.005)), 1);
   EXPECT_EQ(goal.nearest(base::Vector3(0, 0, 1.02)), -1);
+}
+
+Study menu_study() {
+  Study study = small_study();
+  study.task->target = "menu/{colour}";
+  study.task->wrong = "menu/*";
+  return study;
+}
+
+base::Result<TrialGoal> goal_with(const Study& study, const interaction::Element& element) {
+  const StageElement stage = on_stage(element);
+  return trial_goal(study, {}, measured_trial(study, {}, 0, 0), {}, &stage);
+}
+
+TEST(TrialGoal, WidgetsOfAnElementAreThings) {
+  const Study study = menu_study();
+  interaction::Element element = two_items();
+  element.widgets.push_back(item_named("more"));
+  element.widgets[2].widgets = {item_named("green")};
+  element.centre = base::Vector3(0.1, 0.2, 0.3);
+  const auto goal = goal_with(study, element);
+  ASSERT_TRUE(goal) << goal.error().message;
+  const std::string colour = study.trials.variables[0].values[measured_trial(study, {}, 0, 0).values[0]].id;
+  const std::string other = colour == "red" ? "blue" : "red";
+  EXPECT_TRUE(goal->is_in_element());
+  EXPECT_EQ(names(*goal, &Thing::target), std::set<std::string>{"menu/" + colour});
+  EXPECT_EQ(names(*goal, &Thing::wrong), (std::set<std::string>{"menu/" + other, "menu/green"}));
+  EXPECT_NEAR((goal->things[0].bounds.center() - element.centre).z(), 0.0, 1e-12);
+  EXPECT_TRUE(goal->things[3].bounds.isEmpty());  // its menu is not open
+  EXPECT_EQ(goal->distance_to_vicinity(element.centre), std::numeric_limits<double>::infinity());
+}
+
+TEST(TrialGoal, AnElementIsChosenFromAsTheTrialHasIt) {
+  Study study = menu_study();  // its first level chooses by touch, its second by click
+  const interaction::Element element = two_items();
+  const StageElement stage = on_stage(element);
+  TrialPlan plan = measured_trial(study, {}, 0, 0);
+  plan.condition = 1;
+  const auto click = trial_goal(study, {}, plan, {}, &stage);
+  EXPECT_TRUE(click->element->element->choosing.by_click);
+  EXPECT_FALSE(click->element->element->choosing.by_push);
+  EXPECT_EQ(click->near, 0.02);  // the element's own
+  EXPECT_EQ(click->depth, 0.003);
+  EXPECT_EQ(click->vicinity, 0.02);
+  study.task->near = 0.03;
+  study.task->depth = 0.004;
+  study.task->vicinity = 0.05;
+  const auto other = trial_goal(study, {}, plan, {}, &stage);
+  EXPECT_EQ(other->element->element->choosing.near, 0.03);
+  EXPECT_GT(other->element->element->choosing.recede, 0.03);
+  EXPECT_EQ(other->element->element->choosing.push_depth, 0.004);
+  EXPECT_EQ(other->vicinity, 0.05);
+}
+
+TEST(TrialGoal, AnElementWithoutTheTargetOrWithADisabledOneIsTold) {
+  const Study study = menu_study();
+  interaction::Element element = two_items();
+  for (interaction::Widget& widget : element.widgets) widget.enabled = false;
+  EXPECT_NE(goal_with(study, element).error().message.find("is disabled"), std::string::npos);
+  element.widgets = {item_named("pink")};
+  const auto none = goal_with(study, element);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("menu/pink"), std::string::npos) << none.error().message;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "session/sessions.h"
+#include "study/trial_menus.h"
 #include "study/trial_scenes.h"
 
 namespace icome::study {
@@ -174,6 +175,126 @@ TEST(TrialStage, ThingsThatAreNotInATrialAreBackAfterIt) {
   stage.begin(measured_trial(study, {}, 0, 1));
   EXPECT_EQ(wait_for(stage, State::Running), State::Running) << stage.why();
   EXPECT_EQ(session->world().objects().size(), shown);
+}
+
+/// The menu study with a mouse's hand, in one of its groups (click, push) and conditions (forces, none).
+struct Menu {
+  Menu(std::size_t group, std::size_t condition) {
+    study.trials.hold = 0.02;
+    Participant person;
+    person.group = group;
+    plan = measured_trial(study, person, 0, 0);
+    plan.condition = condition;
+    stage = std::make_unique<TrialStage>(*session, study, folder.path(), person);
+    session->menu().on_choice([this](const session::MenuChoice& it) { shown.push_back(it.widget.name); });
+    stage->begin(plan);
+  }
+
+  std::string target() const { return study.trials.variables[0].values[plan.values[0]].id; }
+  std::string other() const { return target() == "red" ? "green" : "red"; }
+  Vector3 before(const std::string& item, double front) const {
+    const interaction::ElementUse& use = *session->menu().use();
+    return middle_of(use, item) + front * use.frame().normal();
+  }
+  bool is_at(const Vector3& place) const { return (session->hands().pointer(0).tip - place).norm() < 0.002; }
+  /// The hand goes there, and stays until that is so.
+  template <typename IsSo>
+  void go(const Vector3& place, const IsSo& is_so) {
+    const auto leads = leads_to(*session, place);
+    while (stage->update() < State::Over && !is_so()) {
+      leads();
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+  void go(const Vector3& place) {
+    go(place, [&] { return is_at(place); });
+  }
+  void click() {
+    for (const std::uint32_t buttons : {1U, 0U}) {
+      session->hands().hold_buttons(buttons);
+      for (int i = 0; i < 20; ++i) {
+        stage->update();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      }
+    }
+  }
+  std::vector<std::string> chosen() const {
+    std::vector<std::string> names;
+    for (const Sample& sample : stage->trace().samples)
+      if (sample.chosen >= 0) names.push_back(stage->trace().things[std::size_t(sample.chosen)]);
+    return names;
+  }
+  double strongest() const {
+    double strongest = 0.0;
+    for (const Sample& sample : stage->trace().samples)
+      if (sample.time > 0.05) strongest = std::max(strongest, sample.force.norm());
+    return strongest;
+  }
+
+  TemplateFolder folder{"menu"};
+  Study study = folder.study();
+  std::unique_ptr<session::Session> session = session::start();
+  TrialPlan plan;
+  std::vector<std::string> shown;  // by what is on the display
+  std::unique_ptr<TrialStage> stage;
+};
+
+TEST(TrialStage, AMenuOfTheSceneIsClickedWithTheMousesHand) {
+  Menu menu(0, 0);
+  ASSERT_EQ(wait_for(*menu.stage, State::Running), State::Running) << menu.stage->why();
+  ASSERT_NE(menu.session->menu().use(), nullptr);
+  EXPECT_LT(menu.session->menu().use()->opacity(), 0.6);
+  menu.go(menu.before(menu.other(), 0.008));
+  menu.click();
+  ASSERT_EQ(menu.stage->state(), State::Running);
+  EXPECT_GT(menu.session->menu().use()->opacity(), 0.6);
+  menu.go(menu.before(menu.target(), 0.008));
+  EXPECT_EQ(menu.session->menu().use()->lit()->name, menu.target());
+  menu.click();
+  ASSERT_EQ(menu.stage->state(), State::Over);
+  EXPECT_EQ(menu.session->menu().use(), nullptr);
+  EXPECT_EQ(menu.stage->measures().errors, 1);
+  EXPECT_TRUE(menu.stage->measures().completed);
+  EXPECT_GT(menu.stage->measures().approach_time, 0.0);
+  EXPECT_LT(menu.stage->measures().approach_time, menu.stage->measures().time);
+  EXPECT_EQ(menu.chosen(), (std::vector<std::string>{"menu/" + menu.other(), "menu/" + menu.target()}));
+  menu.stage->update();
+  EXPECT_EQ(menu.shown, (std::vector<std::string>{menu.other(), menu.target()}));  // it is what was seen
+}
+
+TEST(TrialStage, AMenuOfTheSceneIsPushedAndFelt) {
+  Menu menu(1, 0);
+  ASSERT_EQ(wait_for(*menu.stage, State::Running), State::Running) << menu.stage->why();
+  menu.go(menu.before(menu.target(), 0.01));
+  menu.click();
+  ASSERT_EQ(menu.stage->state(), State::Running);  // the button does not choose here
+  const Vector3 deep = menu.before(menu.target(), -0.018);
+  menu.go(deep, [] { return false; });
+  EXPECT_EQ(menu.stage->state(), State::Over);
+  EXPECT_EQ(menu.stage->measures().errors, 0);
+  EXPECT_GT(menu.strongest(), 0.5);
+  EXPECT_EQ(menu.stage->trace().things[std::size_t(menu.stage->trace().samples.back().touched)],
+            "menu/" + menu.target());
+}
+
+TEST(TrialStage, AMenuWithoutForcesIsPushedAndNotFelt) {
+  Menu menu(1, 1);
+  ASSERT_EQ(wait_for(*menu.stage, State::Running), State::Running) << menu.stage->why();
+  menu.go(menu.before(menu.target(), 0.01));
+  EXPECT_EQ(menu.session->menu().use()->lit()->name, menu.target());
+  const Vector3 deep = menu.before(menu.target(), -0.008);
+  menu.go(deep, [] { return false; });
+  EXPECT_EQ(menu.stage->state(), State::Over);
+  EXPECT_EQ(menu.strongest(), 0.0);
+  EXPECT_EQ(menu.chosen(), std::vector<std::string>{"menu/" + menu.target()});
+}
+
+TEST(TrialStage, AnElementThatIsGoneFailsWithItsName) {
+  Menu menu(0, 0);
+  menu.study.trials.scenes[0].element->file = "scenes/gone.toml";
+  menu.stage->begin(menu.plan);
+  ASSERT_EQ(wait_for(*menu.stage, State::Running), State::Failed);
+  EXPECT_NE(menu.stage->why().find("gone.toml"), std::string::npos);
 }
 
 TEST(TrialStage, ASceneThatIsNotThereFailsWithItsName) {

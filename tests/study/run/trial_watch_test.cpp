@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "study/small_study.h"
+#include "study/trial_menus.h"
+
 namespace icome::study {
 namespace {
 
@@ -188,6 +193,121 @@ TEST(TrialWatch, ATrialEndsAtItsLimit) {
   EXPECT_NEAR(hand.watch.measures().time, 2.0, 1e-9);
   EXPECT_NEAR(hand.watch.measures().approach_time, 2.0, 1e-9);  // never came near
   EXPECT_EQ(hand.watch.measures().homing_time, 0.0);
+}
+
+/// A trial whose target is the red one of two items, in a scene without objects; the menu stands at the
+/// origin and the pointer starts 10 cm before it.
+TrialGoal menu_goal(Choosing choosing, interaction::Element element = two_items()) {
+  Study study = small_study();
+  study.task->target = "menu/red";
+  study.task->wrong = "menu/*";
+  study.task->shown.clear();
+  study.task->choosing = choosing;
+  study.independent.clear();
+  const StageElement stage = on_stage(std::move(element));
+  TrialGoal goal = trial_goal(study, {}, measured_trial(study, {}, 0, 0), {}, &stage).value();
+  goal.hold = 0.01;
+  return goal;
+}
+
+/// A hand before the menu that has been let go at the start.
+struct MenuHand : Hand {
+  explicit MenuHand(const TrialGoal& goal) : Hand(goal) {
+    at(goal.start, 11);
+    watch.release();
+    at(goal.start);
+  }
+  /// Before (> 0) or behind an item, m.
+  Vector3 before(const std::string& name, double front) const {
+    return middle_of(*watch.element(), name) + front * watch.element()->frame().normal();
+  }
+  int errors() const { return watch.measures().errors; }
+};
+
+TEST(TrialWatch, AClickNearAnItemOfAnElementChoosesIt) {
+  MenuHand hand(menu_goal(Choosing::Click));
+  hand.at(hand.before("blue", 0.025), 20, -1, 1);  // too far off (20 mm) to choose
+  EXPECT_EQ(hand.watch.lit(), -1);
+  hand.at(hand.before("blue", 0.015), 20);
+  EXPECT_EQ(hand.watch.goal().things[std::size_t(hand.watch.lit())].name, "menu/blue");
+  hand.at(hand.before("blue", 0.015), 20, -1, 1);
+  EXPECT_EQ(hand.watch.state(), TrialWatch::State::Running);
+  hand.at(hand.before("red", 0.015), 20);
+  hand.at(hand.before("red", 0.015), 1, -1, 1);
+  ASSERT_EQ(hand.watch.state(), TrialWatch::State::Over);
+  EXPECT_TRUE(hand.watch.measures().completed);
+  EXPECT_EQ(hand.errors(), 1);
+  const Sample& last = hand.watch.samples().back();
+  EXPECT_EQ(hand.watch.goal().things[std::size_t(last.chosen)].name, "menu/red");
+  EXPECT_EQ(last.lit, last.chosen);
+  EXPECT_EQ(last.touched, -1);
+  // From its 20 ms on, after those at 25 mm: it lights up where the approach is over.
+  EXPECT_NEAR(hand.watch.measures().approach_time, 0.021, 1e-9);
+  EXPECT_NEAR(hand.watch.measures().time, 0.081, 1e-9);
+}
+
+TEST(TrialWatch, APushIntoAnItemCountsOnceHoweverTheHandTrembles) {
+  MenuHand hand(menu_goal(Choosing::Push));
+  hand.at(hand.before("blue", 0.01), 5, -1, 1);  // the button does nothing
+  for (int i = 0; i < 300; ++i) hand.at(hand.before("blue", -0.003 + 0.0015 * std::sin(0.3 * i)));
+  EXPECT_EQ(hand.watch.state(), TrialWatch::State::Running);
+  hand.at(hand.before("blue", 0.002), 5);
+  hand.at(hand.before("blue", -0.0029), 5);
+  const Sample pressed = hand.watch.samples().back();
+  EXPECT_EQ(hand.watch.goal().things[std::size_t(pressed.touched)].name, "menu/blue");
+  EXPECT_NEAR((pressed.scp - pressed.tip).norm(), 0.0029, 1e-12);
+  hand.at(hand.before("blue", 0.01), 5);
+  hand.at(hand.before("red", 0.01), 5);
+  hand.at(hand.before("red", -0.0031));
+  ASSERT_EQ(hand.watch.state(), TrialWatch::State::Over);
+  EXPECT_EQ(hand.errors(), 1);
+}
+
+TEST(TrialWatch, AnElementIsNotPushedFromBehind) {
+  MenuHand hand(menu_goal(Choosing::Push));
+  hand.at(hand.before("red", 0.0) + Vector3(0.2, 0.0, -0.05), 5);  // round it
+  for (const double front : {-0.05, -0.01, -0.004, -0.001, 0.001, 0.01})
+    hand.at(hand.before("red", front), 5);
+  EXPECT_EQ(hand.watch.state(), TrialWatch::State::Running);
+  for (const Sample& sample : hand.watch.samples()) EXPECT_EQ(sample.touched, -1);
+  hand.at(hand.before("red", -0.004));
+  EXPECT_EQ(hand.watch.state(), TrialWatch::State::Over);
+}
+
+TEST(TrialWatch, PassingBesideAnElementIsNoApproach) {
+  MenuHand hand(menu_goal(Choosing::Click));
+  const double half = hand.watch.element()->layout().sheets.front().half.x();
+  hand.at(Vector3(half + 0.006, 0.0, 0.01), 100);  // 5 mm are the margin
+  hand.at(Vector3(half + 0.004, 0.0, 0.019), 1);
+  hand.at(hand.before("red", 0.01), 5);
+  hand.at(hand.before("red", 0.01), 1, -1, 1);
+  ASSERT_EQ(hand.watch.state(), TrialWatch::State::Over);
+  EXPECT_NEAR(hand.watch.measures().approach_time, 0.101, 1e-9);
+}
+
+TEST(TrialWatch, AMenuOnTheWayIsNoError) {
+  interaction::Element element = two_items();
+  element.widgets.push_back(item_named("more"));
+  element.widgets[2].widgets = {element.widgets[0], item_named("green")};
+  element.widgets.erase(element.widgets.begin());
+  MenuHand hand(menu_goal(Choosing::Click, element));
+  for (const char* const name : {"more", "red"}) {
+    hand.at(hand.before(name, 0.01), 5);
+    hand.at(hand.before(name, 0.01), 2, -1, 1);
+    if (hand.watch.state() == TrialWatch::State::Running) hand.at(hand.before("more", 0.01), 2);
+  }
+  EXPECT_EQ(hand.watch.state(), TrialWatch::State::Over);
+  EXPECT_EQ(hand.errors(), 0);
+}
+
+TEST(TrialWatch, WhatIsTouchedOfAnElementCanBeTheTask) {
+  MenuHand hand(menu_goal(Choosing::Touch));
+  hand.at(hand.before("blue", 0.01), 5);
+  hand.at(hand.before("blue", -0.001), 5);
+  EXPECT_EQ(hand.errors(), 1);
+  hand.at(hand.before("red", 0.01), 5);
+  hand.at(hand.before("red", -0.001), 1);
+  EXPECT_EQ(hand.watch.state(), TrialWatch::State::Over);
 }
 
 }  // namespace

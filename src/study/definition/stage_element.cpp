@@ -1,0 +1,57 @@
+#include "study/definition/stage_element.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fonts/text_ruler.h"
+#include "interaction/elements/element_file.h"
+
+namespace icome::study {
+namespace {
+
+constexpr const char* kElementFont = "DejaVu Sans";  // that which pictures of sheets are drawn with
+
+}  // namespace
+
+base::Result<StageElement> read_stage_element(const SceneElement& element,
+                                              const std::filesystem::path& folder) {
+  auto read = interaction::read_element_file(folder / element.file);
+  if (!read) return tl::unexpected(read.error());
+  if (read->place != interaction::ElementPlace::World)
+    return base::fail(fmt::format("{}: an element of a study lies in its scene: write at = \"world\".",
+                                  (folder / element.file).string()));
+  auto ruler = fonts::TextRuler::open(kElementFont);
+  if (!ruler) return tl::unexpected(ruler.error());
+  read->centre = element.centre.value_or(read->centre);
+  read->turn = element.turn.value_or(read->turn);
+  const auto measure = [ruler = std::move(*ruler)](const std::string& text) { return ruler.width(text); };
+  return StageElement{element.id, std::make_shared<const interaction::Element>(std::move(*read)), measure};
+}
+
+std::vector<std::string> languages_lacking(const StageElement& element, const Study& study) {
+  std::vector<std::string> lacking;
+  const auto& has = element.element->languages;
+  for (const std::string& language : study.languages)
+    if (has.size() > 1 && std::ranges::find(has, language) == has.end()) lacking.push_back(language);
+  return lacking;
+}
+
+std::size_t element_language(const interaction::Element& element, const std::string& language) {
+  const auto found = std::ranges::find(element.languages, language);
+  return found == element.languages.end() ? 0 : std::size_t(found - element.languages.begin());
+}
+
+bool is_in_vicinity(const interaction::ElementUse& use, const base::Vector3& place, double distance) {
+  const interaction::ElementFrame& frame = use.frame();
+  if (std::abs(frame.front_distance(place)) > distance) return false;
+  const base::Vector2 on_plane = frame.projected(place);
+  const base::Vector2 margin = base::Vector2::Constant(use.element().choosing.margin);
+  return std::ranges::any_of(use.layout().sheets, [&](const interaction::LaidSheet& sheet) {
+    return ((on_plane - sheet.centre).cwiseAbs().array() <= (sheet.half + margin).array()).all();
+  });
+}
+
+}  // namespace icome::study
