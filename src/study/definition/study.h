@@ -33,7 +33,8 @@ struct Level {
   // The changes that a level of an independent variable makes in a trial.
   std::optional<Choosing> choosing = {};
   std::optional<bool> forces = {};
-  std::optional<bool> head = {};  // does the eye follow the head?
+  std::optional<bool> head = {};    // does the eye follow the head?
+  std::optional<bool> stereo = {};  // does each eye get a picture?
   Place place = {};
 };
 
@@ -128,7 +129,9 @@ struct Task {
   std::vector<std::string> shown;  // of things whose names differ only in the value, this one alone is there
   Choosing choosing = Choosing::Touch;
   bool forces = true;
-  bool head = true;                                    // the eye follows the head, where that is tracked
+  bool head = true;  // the eye follows the head, where that is tracked
+  std::optional<bool> stereo =
+      {};  // each eye gets a picture; none: where stereo is needed, else as it was chosen
   base::Vector3 start = base::Vector3(0.0, 0.0, 0.1);  // m, stage frame: the start of the pointer
   double near = 0.01;                                  // m, the longest distance from the tip for a click
   double depth = 0.002;                                // m, the depth of the tip for a push to count

@@ -40,6 +40,7 @@ std::optional<Task> read_task(KeyReader& keys, const std::vector<std::string>& l
   task.choosing = read_choosing(part, task.choosing);
   task.forces = part.flag("forces", task.forces);
   task.head = part.flag("head", task.head);
+  if (part.has("stereo")) task.stereo = part.flag("stereo", true);
   task.start = read_start(part).value_or(task.start);
   task.near = part.number("near", task.near, kSmallestDistance, kLargestDistance);
   task.depth = part.number("depth", task.depth, kSmallestDistance, kLargestDistance);

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct TrialGoal {
   Choosing choosing = Choosing::Touch;
   bool forces = true;
   bool head = true;
+  std::optional<bool> stereo;                   // each eye gets a picture; none: as it was chosen
   base::Vector3 start = base::Vector3::Zero();  // m, stage frame
   double near = 0.01;                           // m; see Task
   double depth = 0.002;                         // m

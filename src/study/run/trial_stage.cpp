@@ -90,6 +90,7 @@ void TrialStage::stop() {
   parts_->leave();
   parts_->bring_back();
   parts_->session.view().follow_head(true);
+  parts_->session.view().ask_for_stereo(std::nullopt);
   parts_->state = State::Idle;
 }
 
@@ -151,6 +152,7 @@ void TrialStage::Parts::begin_seeking() {
   session.view().set(interaction::fitted(session.view().now(), all, kTowardEye, base::Vector3::UnitY(),
                                          session.view().aspect()));
   session.view().follow_head(goal->head);
+  session.view().ask_for_stereo(goal->stereo);
   watch.emplace(std::move(*goal));
   session.hands().take_trace();  // the rest of another trial
   lost_before = session.hands().take_trace().lost;

@@ -1,0 +1,291 @@
+#include "headcam/face_cascade.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/parse_number.h"
+
+namespace icome::headcam {
+namespace {
+
+constexpr double kScaleStep = 1.1;   // from one size of windows to the next
+constexpr int kStep = 2;             // pixels from one window to the next
+constexpr int kLeastWindows = 4;     // around a face
+constexpr double kSameFace = 0.3;    // of the size, between windows of one face
+constexpr int kDeepest = 16;         // elements in each other
+constexpr int kLargestWindow = 256;  // pixels
+
+/// An element of an XML file, as far as cascades use XML: attributes, entities and text beside elements do
+/// not count.
+struct Element {
+  std::string_view name, text;
+  std::size_t at = 0;  // in the file
+  std::vector<Element> inside;
+
+  const Element* find(std::string_view wanted) const {
+    const auto found = std::ranges::find(inside, wanted, &Element::name);
+    return found == inside.end() ? nullptr : &*found;
+  }
+};
+
+/// Reads elements of a text.
+class ElementReader {
+ public:
+  explicit ElementReader(std::string_view text) : text_(text) {}
+
+  /// The next element; nothing where there is none or it is not closed.
+  std::optional<Element> next(int depth = 0) {
+    skip_to_tag();
+    if (at_ >= text_.size() || text_[at_ + 1] == '/' || depth > kDeepest) return std::nullopt;
+    Element element;
+    element.at = at_;
+    const std::size_t end = text_.find('>', at_);
+    if (end == text_.npos) return std::nullopt;
+    const std::string_view tag = text_.substr(at_ + 1, end - at_ - 1);
+    element.name = tag.substr(0, tag.find_first_of(" \t\r\n/"));
+    at_ = end + 1;
+    if (tag.ends_with('/')) return element;
+    const std::size_t begin = at_;
+    element.text = text_.substr(begin, std::min(text_.find('<', begin), text_.size()) - begin);
+    while (auto inner = next(depth + 1)) element.inside.push_back(std::move(*inner));
+    if (at_ >= text_.size() || !text_.substr(at_).starts_with(fmt::format("</{}>", element.name)))
+      return std::nullopt;
+    at_ = text_.find('>', at_) + 1;
+    return element;
+  }
+
+  std::size_t at() const { return std::min(at_, text_.size()); }
+
+ private:
+  /// Passes over text, comments and the XML declaration.
+  void skip_to_tag() {
+    for (;;) {
+      at_ = text_.find('<', at_);
+      if (at_ == text_.npos || at_ + 1 >= text_.size()) {
+        at_ = text_.size();
+        return;
+      }
+      const std::string_view rest = text_.substr(at_);
+      if (rest.starts_with("<!--"))
+        at_ = std::min(text_.find("-->", at_), text_.size());
+      else if (rest.starts_with("<?"))
+        at_ = std::min(text_.find("?>", at_), text_.size());
+      else
+        return;
+    }
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+std::vector<double> numbers_in(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  std::vector<double> numbers;
+  for (;;) {
+    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+    if (text.empty()) return numbers;
+    std::string_view word = text.substr(0, text.find_first_of(kBlanks));
+    text.remove_prefix(word.size());
+    if (word.ends_with('.')) word.remove_suffix(1);  // "-1." is how OpenCV writes whole numbers
+    numbers.push_back(base::parse_finite(word).value_or(NAN));
+  }
+}
+
+/// Reads the parts of a cascade; the first fault is kept.
+class CascadeReader {
+ public:
+  CascadeReader(std::string_view xml, const std::string& source) : xml_(xml), source_(source) {}
+
+  base::Result<FaceCascade> read() {
+    ElementReader reader(xml_);
+    const auto storage = reader.next();
+    const Element* const cascade = storage ? storage->find("cascade") : nullptr;
+    if (cascade == nullptr) return wrong(reader.at(), "this is no cascade as OpenCV writes them since 2.4");
+    result_.width = int(number_of(*cascade, "width"));
+    result_.height = int(number_of(*cascade, "height"));
+    if (const Element* const features = child(*cascade, "features"))
+      for (const Element& it : features->inside) take_feature(it);
+    if (const Element* const stages = child(*cascade, "stages"))
+      for (const Element& it : stages->inside) take_stage(it);
+    if (!fault_ && (result_.width < 4 || result_.height < 4 || result_.width > kLargestWindow ||
+                    result_.height > kLargestWindow || result_.stages.empty()))
+      note(*cascade, "its window or its stages are missing");
+    if (fault_) return tl::unexpected(*fault_);
+    return std::move(result_);
+  }
+
+ private:
+  base::Result<FaceCascade> wrong(std::size_t at, const std::string& what) const {
+    const auto line = 1 + std::count(xml_.begin(), xml_.begin() + std::ptrdiff_t(at), '\n');
+    return base::fail(fmt::format("{}:{}: {}", source_, line, what));
+  }
+  void note(const Element& where, const std::string& what) {
+    if (!fault_) fault_ = wrong(where.at, what).error();
+  }
+  const Element* child(const Element& of, std::string_view name) {
+    const Element* const found = of.find(name);
+    if (found == nullptr) note(of, fmt::format("<{}> is missing", name));
+    return found;
+  }
+  /// The numbers of an element of that name; NaN where there are not so many.
+  std::vector<double> numbers_of(const Element& of, std::string_view name, std::size_t count) {
+    const Element* const found = child(of, name);
+    std::vector<double> numbers = found ? numbers_in(found->text) : std::vector<double>();
+    const bool good =
+        numbers.size() == count && std::ranges::all_of(numbers, [](double it) { return std::isfinite(it); });
+    if (found && !good) note(*found, fmt::format("<{}> must hold {} numbers", name, count));
+    numbers.resize(count, NAN);
+    return numbers;
+  }
+  double number_of(const Element& of, std::string_view name) {
+    const double number = numbers_of(of, name, 1).front();
+    return std::isfinite(number) && std::abs(number) < 1e9 ? number : 0.0;
+  }
+
+  void take_feature(const Element& element) {
+    FaceCascade::Feature feature;
+    const Element* const rects = child(element, "rects");
+    const Element* const tilted = element.find("tilted");
+    if (tilted != nullptr && numbers_in(tilted->text) != std::vector<double>{0.0})
+      note(*tilted, "tilted rectangles are not known");
+    for (const Element& it : rects ? rects->inside : std::vector<Element>()) {
+      const std::vector<double> n = numbers_in(it.text);
+      const bool inside = n.size() == 5 && n[0] >= 0 && n[1] >= 0 && n[2] > 0 && n[3] > 0 &&
+                          n[0] + n[2] <= result_.width && n[1] + n[3] <= result_.height &&
+                          std::isfinite(n[4]);
+      if (!inside || feature.count == int(feature.parts.size()))
+        return note(it, "a rectangle makes no sense");
+      feature.parts[std::size_t(feature.count++)] = {int(n[0]), int(n[1]), int(n[2]), int(n[3]), n[4]};
+    }
+    result_.features.push_back(feature);
+  }
+
+  void take_stage(const Element& element) {
+    FaceCascade::Stage stage{number_of(element, "stageThreshold"), {}};
+    const Element* const weak = child(element, "weakClassifiers");
+    for (const Element& it : weak ? weak->inside : std::vector<Element>()) {
+      const auto nodes = numbers_of(it, "internalNodes", 4), leaves = numbers_of(it, "leafValues", 2);
+      if (fault_) return;
+      if (!(nodes[2] >= 0.0 && nodes[2] < double(result_.features.size())))
+        return note(it, "a feature is named that is not there");
+      stage.stumps.push_back({int(nodes[2]), nodes[3], leaves[0], leaves[1]});
+    }
+    result_.stages.push_back(std::move(stage));
+  }
+
+  std::string_view xml_;
+  const std::string& source_;
+  FaceCascade result_;
+  std::optional<base::Error> fault_;
+};
+
+/// The picture with each side divided by `scale` >= 1: means of the pixels that fall into each.
+GreyPicture shrunk(const GreyPicture& picture, double scale) {
+  GreyPicture small{int(picture.width / scale), int(picture.height / scale), {}};
+  small.pixels.resize(std::size_t(small.width) * std::size_t(small.height));
+  const auto at = [&](int x, int y) {
+    return double(picture.pixels[std::size_t(std::min(y, picture.height - 1)) * std::size_t(picture.width) +
+                                 std::size_t(std::min(x, picture.width - 1))]);
+  };
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      const double u = std::max(0.0, (x + 0.5) * scale - 0.5), v = std::max(0.0, (y + 0.5) * scale - 0.5);
+      const int left = int(u), top = int(v);
+      const double right = u - left, below = v - top;
+      const double upper = (1.0 - right) * at(left, top) + right * at(left + 1, top);
+      const double lower = (1.0 - right) * at(left, top + 1) + right * at(left + 1, top + 1);
+      small.pixels[std::size_t(y) * std::size_t(small.width) + std::size_t(x)] =
+          std::uint8_t(std::lround((1.0 - below) * upper + below * lower));
+    }
+  return small;
+}
+
+bool is_same_face(const SeenFace& one, const SeenFace& other) {
+  const double slack = kSameFace * std::min(one.size, other.size);
+  return std::abs(one.x - other.x) <= slack && std::abs(one.y - other.y) <= slack &&
+         std::abs(one.size - other.size) <= slack;
+}
+
+/// The means of windows that are nearly the same.
+std::vector<SeenFace> gathered(const std::vector<SeenFace>& windows) {
+  std::vector<SeenFace> faces;
+  for (const SeenFace& it : windows) {
+    const auto found =
+        std::ranges::find_if(faces, [&](const SeenFace& face) { return is_same_face(face, it); });
+    if (found == faces.end()) {
+      faces.push_back(it);
+      continue;
+    }
+    const double share = 1.0 / ++found->windows;
+    found->x += share * (it.x - found->x);
+    found->y += share * (it.y - found->y);
+    found->size += share * (it.size - found->size);
+  }
+  std::erase_if(faces, [](const SeenFace& it) { return it.windows < kLeastWindows; });
+  return faces;
+}
+
+}  // namespace
+
+base::Result<FaceCascade> read_face_cascade(std::string_view xml, const std::string& source) {
+  return CascadeReader(xml, source).read();
+}
+
+PictureSums::PictureSums(const GreyPicture& picture)
+    : stride_(std::size_t(picture.width) + 1),
+      sums_(stride_ * (std::size_t(picture.height) + 1)),
+      squares_(sums_.size()) {
+  for (std::size_t y = 0; y < std::size_t(picture.height); ++y) {
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t x = 0; x < std::size_t(picture.width); ++x) {
+      const double pixel = picture.pixels[y * std::size_t(picture.width) + x];
+      sum += pixel;
+      squares += pixel * pixel;
+      sums_[(y + 1) * stride_ + x + 1] = sums_[y * stride_ + x + 1] + sum;
+      squares_[(y + 1) * stride_ + x + 1] = squares_[y * stride_ + x + 1] + squares;
+    }
+  }
+}
+
+/// Features count by the contrast of the window, less a pixel all round, as OpenCV has trained them.
+bool is_face(const FaceCascade& cascade, const PictureSums& sums, int x, int y) {
+  const int width = cascade.width - 2, height = cascade.height - 2;
+  const double area = double(width) * height;
+  const double sum = sums.sum(x + 1, y + 1, width, height),
+               squares = sums.squares(x + 1, y + 1, width, height);
+  const double contrast = area * squares - sum * sum;
+  const double scale = contrast > 0.0 ? 1.0 / std::sqrt(contrast) : 1.0;
+  for (const FaceCascade::Stage& stage : cascade.stages) {
+    double votes = 0.0;
+    for (const FaceCascade::Stump& stump : stage.stumps) {
+      const FaceCascade::Feature& feature = cascade.features[std::size_t(stump.feature)];
+      double value = 0.0;
+      for (int i = 0; i < feature.count; ++i) {
+        const FaceCascade::Part& part = feature.parts[std::size_t(i)];
+        value += part.weight * sums.sum(x + part.x, y + part.y, part.width, part.height);
+      }
+      votes += value * scale < stump.threshold ? stump.below : stump.above;
+    }
+    if (votes < stage.threshold) return false;
+  }
+  return true;
+}
+
+std::vector<SeenFace> find_faces(const FaceCascade& cascade, const GreyPicture& picture, double least) {
+  std::vector<SeenFace> windows;
+  for (double scale = std::max(1.0, least / cascade.width);; scale *= kScaleStep) {
+    if (picture.width / scale < cascade.width || picture.height / scale < cascade.height) break;
+    const GreyPicture small = shrunk(picture, scale);
+    const PictureSums sums(small);
+    for (int y = 0; y + cascade.height <= small.height; y += kStep)
+      for (int x = 0; x + cascade.width <= small.width; x += kStep)
+        if (is_face(cascade, sums, x, y)) windows.push_back({x * scale, y * scale, cascade.width * scale, 1});
+  }
+  return gathered(windows);
+}
+
+}  // namespace icome::headcam
