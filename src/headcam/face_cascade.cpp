@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <pugixml.hpp>
 
 #include "base/parse_number.h"
 
@@ -15,72 +16,7 @@ constexpr double kScaleStep = 1.1;   // from one size of windows to the next
 constexpr int kStep = 2;             // pixels from one window to the next
 constexpr int kLeastWindows = 4;     // around a face
 constexpr double kSameFace = 0.3;    // of the size, between windows of one face
-constexpr int kDeepest = 16;         // elements in each other
 constexpr int kLargestWindow = 256;  // pixels
-
-/// An element of an XML file, as far as cascades use XML: attributes, entities and text beside elements do
-/// not count.
-struct Element {
-  std::string_view name, text;
-  std::size_t at = 0;  // in the file
-  std::vector<Element> inside;
-
-  const Element* find(std::string_view wanted) const {
-    const auto found = std::ranges::find(inside, wanted, &Element::name);
-    return found == inside.end() ? nullptr : &*found;
-  }
-};
-
-/// Reads elements of a text.
-class ElementReader {
- public:
-  explicit ElementReader(std::string_view text) : text_(text) {}
-
-  /// The next element; nothing where there is none or it is not closed.
-  std::optional<Element> next(int depth = 0) {
-    skip_to_tag();
-    if (at_ >= text_.size() || text_[at_ + 1] == '/' || depth > kDeepest) return std::nullopt;
-    Element element;
-    element.at = at_;
-    const std::size_t end = text_.find('>', at_);
-    if (end == text_.npos) return std::nullopt;
-    const std::string_view tag = text_.substr(at_ + 1, end - at_ - 1);
-    element.name = tag.substr(0, tag.find_first_of(" \t\r\n/"));
-    at_ = end + 1;
-    if (tag.ends_with('/')) return element;
-    const std::size_t begin = at_;
-    element.text = text_.substr(begin, std::min(text_.find('<', begin), text_.size()) - begin);
-    while (auto inner = next(depth + 1)) element.inside.push_back(std::move(*inner));
-    if (at_ >= text_.size() || !text_.substr(at_).starts_with(fmt::format("</{}>", element.name)))
-      return std::nullopt;
-    at_ = text_.find('>', at_) + 1;
-    return element;
-  }
-
-  std::size_t at() const { return std::min(at_, text_.size()); }
-
- private:
-  /// Passes over text, comments and the XML declaration.
-  void skip_to_tag() {
-    for (;;) {
-      at_ = text_.find('<', at_);
-      if (at_ == text_.npos || at_ + 1 >= text_.size()) {
-        at_ = text_.size();
-        return;
-      }
-      const std::string_view rest = text_.substr(at_);
-      if (rest.starts_with("<!--"))
-        at_ = std::min(text_.find("-->", at_), text_.size());
-      else if (rest.starts_with("<?"))
-        at_ = std::min(text_.find("?>", at_), text_.size());
-      else
-        return;
-    }
-  }
-
-  std::string_view text_;
-  std::size_t at_ = 0;
-};
 
 std::vector<double> numbers_in(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n";
@@ -101,59 +37,57 @@ class CascadeReader {
   CascadeReader(std::string_view xml, const std::string& source) : xml_(xml), source_(source) {}
 
   base::Result<FaceCascade> read() {
-    ElementReader reader(xml_);
-    const auto storage = reader.next();
-    const Element* const cascade = storage ? storage->find("cascade") : nullptr;
-    if (cascade == nullptr) return wrong(reader.at(), "this is no cascade as OpenCV writes them since 2.4");
-    result_.width = int(number_of(*cascade, "width"));
-    result_.height = int(number_of(*cascade, "height"));
-    if (const Element* const features = child(*cascade, "features"))
-      for (const Element& it : features->inside) take_feature(it);
-    if (const Element* const stages = child(*cascade, "stages"))
-      for (const Element& it : stages->inside) take_stage(it);
+    pugi::xml_document document;
+    const auto parsed = document.load_buffer(xml_.data(), xml_.size());
+    if (!parsed) return wrong(parsed.offset, parsed.description());
+    const pugi::xml_node cascade = document.child("opencv_storage").child("cascade");
+    if (!cascade) return wrong(0, "this is no cascade as OpenCV writes them since 2.4");
+    result_.width = int(number_of(cascade, "width"));
+    result_.height = int(number_of(cascade, "height"));
+    for (const pugi::xml_node it : child(cascade, "features")) take_feature(it);
+    for (const pugi::xml_node it : child(cascade, "stages")) take_stage(it);
     if (!fault_ && (result_.width < 4 || result_.height < 4 || result_.width > kLargestWindow ||
                     result_.height > kLargestWindow || result_.stages.empty()))
-      note(*cascade, "its window or its stages are missing");
+      note(cascade, "its window or its stages are missing");
     if (fault_) return tl::unexpected(*fault_);
     return std::move(result_);
   }
 
  private:
-  base::Result<FaceCascade> wrong(std::size_t at, const std::string& what) const {
-    const auto line = 1 + std::count(xml_.begin(), xml_.begin() + std::ptrdiff_t(at), '\n');
-    return base::fail(fmt::format("{}:{}: {}", source_, line, what));
+  base::Result<FaceCascade> wrong(std::ptrdiff_t at, const std::string& what) const {
+    const auto end = xml_.begin() + std::clamp(at, std::ptrdiff_t(0), std::ptrdiff_t(xml_.size()));
+    return base::fail(fmt::format("{}:{}: {}", source_, 1 + std::count(xml_.begin(), end, '\n'), what));
   }
-  void note(const Element& where, const std::string& what) {
-    if (!fault_) fault_ = wrong(where.at, what).error();
+  void note(const pugi::xml_node& where, const std::string& what) {
+    if (!fault_) fault_ = wrong(where.offset_debug(), what).error();
   }
-  const Element* child(const Element& of, std::string_view name) {
-    const Element* const found = of.find(name);
-    if (found == nullptr) note(of, fmt::format("<{}> is missing", name));
+  pugi::xml_node child(const pugi::xml_node& of, const char* name) {
+    const pugi::xml_node found = of.child(name);
+    if (!found) note(of, fmt::format("<{}> is missing", name));
     return found;
   }
   /// The numbers of an element of that name; NaN where there are not so many.
-  std::vector<double> numbers_of(const Element& of, std::string_view name, std::size_t count) {
-    const Element* const found = child(of, name);
-    std::vector<double> numbers = found ? numbers_in(found->text) : std::vector<double>();
+  std::vector<double> numbers_of(const pugi::xml_node& of, const char* name, std::size_t count) {
+    const pugi::xml_node found = child(of, name);
+    std::vector<double> numbers = numbers_in(found.text().get());
     const bool good =
         numbers.size() == count && std::ranges::all_of(numbers, [](double it) { return std::isfinite(it); });
-    if (found && !good) note(*found, fmt::format("<{}> must hold {} numbers", name, count));
+    if (found && !good) note(found, fmt::format("<{}> must hold {} numbers", name, count));
     numbers.resize(count, NAN);
     return numbers;
   }
-  double number_of(const Element& of, std::string_view name) {
+  double number_of(const pugi::xml_node& of, const char* name) {
     const double number = numbers_of(of, name, 1).front();
     return std::isfinite(number) && std::abs(number) < 1e9 ? number : 0.0;
   }
 
-  void take_feature(const Element& element) {
+  void take_feature(const pugi::xml_node& element) {
     FaceCascade::Feature feature;
-    const Element* const rects = child(element, "rects");
-    const Element* const tilted = element.find("tilted");
-    if (tilted != nullptr && numbers_in(tilted->text) != std::vector<double>{0.0})
-      note(*tilted, "tilted rectangles are not known");
-    for (const Element& it : rects ? rects->inside : std::vector<Element>()) {
-      const std::vector<double> n = numbers_in(it.text);
+    const pugi::xml_node tilted = element.child("tilted");
+    if (tilted && numbers_in(tilted.text().get()) != std::vector<double>{0.0})
+      note(tilted, "tilted rectangles are not known");
+    for (const pugi::xml_node it : child(element, "rects")) {
+      const std::vector<double> n = numbers_in(it.text().get());
       const bool inside = n.size() == 5 && n[0] >= 0 && n[1] >= 0 && n[2] > 0 && n[3] > 0 &&
                           n[0] + n[2] <= result_.width && n[1] + n[3] <= result_.height &&
                           std::isfinite(n[4]);
@@ -164,10 +98,9 @@ class CascadeReader {
     result_.features.push_back(feature);
   }
 
-  void take_stage(const Element& element) {
+  void take_stage(const pugi::xml_node& element) {
     FaceCascade::Stage stage{number_of(element, "stageThreshold"), {}};
-    const Element* const weak = child(element, "weakClassifiers");
-    for (const Element& it : weak ? weak->inside : std::vector<Element>()) {
+    for (const pugi::xml_node it : child(element, "weakClassifiers")) {
       const auto nodes = numbers_of(it, "internalNodes", 4), leaves = numbers_of(it, "leafValues", 2);
       if (fault_) return;
       if (!(nodes[2] >= 0.0 && nodes[2] < double(result_.features.size())))

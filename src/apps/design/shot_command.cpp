@@ -105,7 +105,7 @@ render::SceneLook look_of(const ShotOptions& options, const render::RenderScene&
   return look;
 }
 
-base::Result<charts::Image> draw(const render::RenderScene& scene, const render::Camera& camera,
+base::Result<charts::Image> shot_picture(const render::RenderScene& scene, const render::Camera& camera,
                                  const ShotOptions& options) {
   const render::SceneLook look = look_of(options, scene);
   if (!has_own_eyes(options)) return render::draw_picture(scene, camera, look, options.width, options.height);
@@ -163,7 +163,7 @@ base::Result<ShotFigures> take_shot(const ShotOptions& options, StatusLine& stat
   const render::RenderScenePointer scene = scene_of(design->world, *id, options.time);
   const auto camera = choose_camera(*scene, options, figures.view);
   if (!camera) return tl::unexpected(camera.error());
-  const auto image = draw(*scene, *camera, options);
+  const auto image = shot_picture(*scene, *camera, options);
   if (!image) return tl::unexpected(image.error());
   figures.width = image->width;
   figures.height = image->height;

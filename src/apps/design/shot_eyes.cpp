@@ -12,7 +12,7 @@ using base::Vector3;
 using interaction::View;
 
 /// The view of a camera that looks straight at the middle of its picture.
-View view_of(const render::Camera& camera, const base::Bounds& bounds) {
+View shot_view_of(const render::Camera& camera, const base::Bounds& bounds) {
   View view;
   view.world_from_eye = camera.camera_from_world.inverse();
   view.field = 2.0 * std::atan(1.0 / std::max(camera.clip_from_camera(0, 0), camera.clip_from_camera(1, 1)));
@@ -23,7 +23,7 @@ View view_of(const render::Camera& camera, const base::Bounds& bounds) {
   return interaction::usable(view);
 }
 
-render::Camera camera_of(const View& view, const base::Bounds& bounds, double aspect) {
+render::Camera shot_camera_of(const View& view, const base::Bounds& bounds, double aspect) {
   render::Camera camera;
   camera.camera_from_world = view.world_from_eye.inverse();
   camera.clip_from_camera =
@@ -40,7 +40,7 @@ bool has_own_eyes(const ShotOptions& options) {
 ShotEyes shot_eyes(const render::Camera& camera, const base::Bounds& bounds, const ShotOptions& options) {
   const double aspect = double(options.width) / options.height;
   interaction::FishTank screen;
-  View view = view_of(camera, bounds);
+  View view = shot_view_of(camera, bounds);
   if (options.screen) {
     screen.size = *options.screen;
     view = interaction::with_field(view, interaction::field_of(screen));
@@ -50,7 +50,7 @@ ShotEyes shot_eyes(const render::Camera& camera, const base::Bounds& bounds, con
       scale * (options.eye.value_or(Vector3(0.0, 0.0, screen.distance)) - Vector3(0.0, 0.0, screen.distance));
   const auto seen = [&](double aside) {
     const Vector3 eye = place + Vector3(aside * scale * options.stereo.eye_distance, 0.0, 0.0);
-    return camera_of(interaction::seen_from(view, eye), bounds, aspect);
+    return shot_camera_of(interaction::seen_from(view, eye), bounds, aspect);
   };
   return {seen(0.0), {seen(-0.5), seen(0.5)}};
 }

@@ -19,25 +19,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kCalibrationSeconds = 10.0;  // of a camera
+constexpr double kHeadCameraSeconds = 10.0;  // of a camera
 
 int camera_failed(const base::Error& error) {
   tell(error.message);
   return kFailed;
 }
 
-base::Result<headcam::HeadCameraAddress> camera_of(const std::string& address) {
+base::Result<headcam::HeadCameraAddress> head_camera_of(const std::string& address) {
   if (headcam::is_head_camera_address(address)) return headcam::parse_head_camera_address(address);
   return base::fail(address +
                     ": a camera is named camera, camera:SOURCE, camera-marker or camera-marker:SOURCE");
 }
 
 /// Shows each picture until the source ends, the seconds (of its own clock) are over, or Ctrl-C.
-base::Result<void> look_at(const std::string& source, std::optional<double> seconds,
+base::Result<void> look_at_head(const std::string& source, std::optional<double> seconds,
                            const std::function<void(const cutout::Frame&)>& look) {
   const auto frames = cutout::open_source(source, {});
   if (!frames) return tl::unexpected(frames.error());
-  if (!seconds && (*frames)->is_live()) seconds = kCalibrationSeconds;
+  if (!seconds && (*frames)->is_live()) seconds = kHeadCameraSeconds;
   std::optional<double> began;
   while (!interrupted()) {
     const std::uint64_t damaged = (*frames)->damaged();
@@ -58,7 +58,7 @@ base::Result<void> look_at(const std::string& source, std::optional<double> seco
 }  // namespace
 
 int run_head_calibration(const HeadOptions& options) {
-  const auto address = camera_of(options.calibrate);
+  const auto address = head_camera_of(options.calibrate);
   if (!address) return camera_failed(address.error());
   const auto finder = headcam::finder_of(address->camera);
   if (!finder) return camera_failed(finder.error());
@@ -67,7 +67,7 @@ int run_head_calibration(const HeadOptions& options) {
   StatusLine status;
   status.say("Keep still");
   headcam::HeadCalibration calibration;
-  const auto looked = look_at(address->source, options.seconds,
+  const auto looked = look_at_head(address->source, options.seconds,
                               [&](const cutout::Frame& frame) { calibration.take(frame.view(), **finder); });
   status.clear();
   if (!looked) return camera_failed(looked.error());
@@ -85,7 +85,7 @@ int run_head_calibration(const HeadOptions& options) {
 }
 
 int run_head_recording(const HeadOptions& options) {
-  const auto address = camera_of(options.record);
+  const auto address = head_camera_of(options.record);
   if (!address) return camera_failed(address.error());
   const auto finder = headcam::finder_of(address->camera);
   if (!finder) return camera_failed(finder.error());
@@ -95,7 +95,7 @@ int run_head_recording(const HeadOptions& options) {
   StatusLine status;
   status.say("Recording");
   int pictures = 0, found = 0;
-  const auto looked = look_at(address->source, options.seconds, [&](const cutout::Frame& frame) {
+  const auto looked = look_at_head(address->source, options.seconds, [&](const cutout::Frame& frame) {
     ++pictures;
     const auto seen = (*finder)->find(frame.view());
     if (!seen) return;

@@ -152,8 +152,9 @@ void UserInteraction::read_head(double dt, News& news) {
   Pose user_from_head = Pose::Identity();
   const DeviceStatus status = head_->read(user_from_head);
   const bool was_lost = head_presence_.asked && !head_presence_.there;
+  const std::size_t told = news.devices.size();
   note(head_->name(), head_presence_, status, dt, news);
-  if (status == DeviceStatus::Lost && !news.devices.empty() && news.devices.back().lost)
+  if (status == DeviceStatus::Lost && news.devices.size() > told)
     if (const std::string why = head_->why_lost(); !why.empty())
       news.devices.back().text = fmt::format("{} is gone. {}", head_->name(), why);
   const double part = 1.0 - std::exp(-dt / kRecall);

@@ -195,11 +195,12 @@ void ViewActions::fill_stereo(QMenu& menu) {
 }
 
 void ViewActions::ask_eye_distance(QWidget* parent) {
+  while (parent->parentWidget()) parent = parent->parentWidget();  // a menu is a window of its own
   constexpr double kMillimetres = 1000.0;
   bool taken = false;
   auto stereo = session_.view().stereo();
   const double distance = QInputDialog::getDouble(
-      parent->window(), "Eye Distance",
+      parent, "Eye Distance",
       "Between the middles of your pupils, in mm:", kMillimetres * stereo.eye_distance, 0.0,
       kMillimetres * interaction::StereoSettings::kMostEyeDistance, 1, &taken);
   if (!taken) return;

@@ -45,4 +45,10 @@ SceneInput in_eye(const SceneInput& whole, const interaction::StereoSettings& st
   return input;
 }
 
+QPointF in_scene(const QPointF& at, const QSizeF& scene, const interaction::StereoSettings& stereo) {
+  const QSizeF share = eye_share(stereo), picture = eye_size(scene, stereo);
+  return {at.x() * share.width() * scene.width() / picture.width(),
+          at.y() * share.height() * scene.height() / picture.height()};
+}
+
 }  // namespace icome::ui

@@ -33,20 +33,20 @@ View at_rest() {
   return view;
 }
 
-View eye(double aside) { return interaction::seen_from(at_rest(), {aside * kEyes, 0.0, 0.0}); }
+View eye_aside(double aside) { return interaction::seen_from(at_rest(), {aside * kEyes, 0.0, 0.0}); }
 
 DisplayWish wish_of(StereoKind kind, bool squeezed = false) {
   DisplayWish wish;
   wish.view = at_rest();
-  wish.left = eye(-0.5);
-  wish.right = eye(0.5);
+  wish.left = eye_aside(-0.5);
+  wish.right = eye_aside(0.5);
   wish.stereo = {kind, kEyes, squeezed};
   wish.look = render::plain_look();
   wish.look.passes = 3;
   return wish;
 }
 
-render::RenderScenePointer scene_with_box(const Vector3& centre, double size) {
+render::RenderScenePointer scene_with_cube(const Vector3& centre, double size) {
   render::DrawnWorld it;
   world::Material white = render::coloured({1.0F, 1.0F, 1.0F});
   white.emission = {1.0F, 1.0F, 1.0F};
@@ -55,7 +55,7 @@ render::RenderScenePointer scene_with_box(const Vector3& centre, double size) {
 }
 
 /// The picture that a feed draws in the end, rows from the top.
-charts::Image picture(const render::RenderScenePointer& scene, const DisplayWish& wish,
+charts::Image eyes_picture(const render::RenderScenePointer& scene, const DisplayWish& wish,
                       const std::optional<Vector3>& tip = std::nullopt, int width = kWide,
                       int height = kHigh) {
   LiveRenderer live(width, height);
@@ -144,7 +144,7 @@ TEST(StereoDisplay, ThePairHasTheParallaxOfItsDepth) {
     const Vector3 point(0.1, 0.15, z);
     // A small cube is in the picture where its middle is, as far as its faces' sizes do not differ.
     const charts::Image both =
-        picture(scene_with_box(point, 0.02 * (kDistance - z)), wish_of(StereoKind::SideBySide));
+        eyes_picture(scene_with_cube(point, 0.02 * (kDistance - z)), wish_of(StereoKind::SideBySide));
     const double aspect = 0.5 * kWide / kHigh;
     for (const int side : {0, 1}) {
       const charts::Image one = part_of(both, side * kWide / 2, 0, kWide / 2, kHigh);
@@ -158,13 +158,13 @@ TEST(StereoDisplay, ThePairHasTheParallaxOfItsDepth) {
 
 TEST(StereoDisplay, AnaglyphHasTheChannelsOfEachEye) {
   REQUIRE_OPENGL();
-  const auto scene = scene_with_box({0.1, 0.0, 0.4}, 0.5);
-  const charts::Image both = picture(scene, wish_of(StereoKind::Anaglyph));
+  const auto scene = scene_with_cube({0.1, 0.0, 0.4}, 0.5);
+  const charts::Image both = eyes_picture(scene, wish_of(StereoKind::Anaglyph));
   DisplayWish alone = wish_of(StereoKind::Off);
-  alone.view = eye(-0.5);
-  const charts::Image left = picture(scene, alone);
-  alone.view = eye(0.5);
-  const charts::Image right = picture(scene, alone);
+  alone.view = eye_aside(-0.5);
+  const charts::Image left = eyes_picture(scene, alone);
+  alone.view = eye_aside(0.5);
+  const charts::Image right = eyes_picture(scene, alone);
   EXPECT_NE(left.rgba, right.rgba);
   for (std::size_t i = 0; i < both.rgba.size(); i += 4) {
     ASSERT_EQ(both.rgba[i], left.rgba[i]);
@@ -177,24 +177,24 @@ TEST(StereoDisplay, AnaglyphHasTheChannelsOfEachEye) {
 
 TEST(StereoDisplay, HalvesAreThePicturesOfTheEyes) {
   REQUIRE_OPENGL();
-  const auto scene = scene_with_box({0.1, 0.2, 0.4}, 0.5);
+  const auto scene = scene_with_cube({0.1, 0.2, 0.4}, 0.5);
   DisplayWish left = wish_of(StereoKind::Off), right = left;
-  left.view = eye(-0.5);
-  right.view = eye(0.5);
+  left.view = eye_aside(-0.5);
+  right.view = eye_aside(0.5);
   for (const auto kind : {StereoKind::SideBySide, StereoKind::TopBottom}) {
     const bool aside = kind == StereoKind::SideBySide;
     const int width = aside ? kWide / 2 : kWide, height = aside ? kHigh : kHigh / 2;
-    const charts::Image both = picture(scene, wish_of(kind));
-    EXPECT_EQ(part_of(both, 0, 0, width, height).rgba, picture(scene, left, {}, width, height).rgba);
+    const charts::Image both = eyes_picture(scene, wish_of(kind));
+    EXPECT_EQ(part_of(both, 0, 0, width, height).rgba, eyes_picture(scene, left, {}, width, height).rgba);
     EXPECT_EQ(part_of(both, kWide - width, kHigh - height, width, height).rgba,
-              picture(scene, right, {}, width, height).rgba);
+              eyes_picture(scene, right, {}, width, height).rgba);
   }
 }
 
 TEST(StereoDisplay, SqueezedHalvesHoldTheWholePicture) {
   REQUIRE_OPENGL();
   const Vector3 point(0.6, -0.3, 0.0);
-  const charts::Image both = picture(scene_with_box(point, 0.05), wish_of(StereoKind::SideBySide, true));
+  const charts::Image both = eyes_picture(scene_with_cube(point, 0.05), wish_of(StereoKind::SideBySide, true));
   const Vector2 found =
       middle_of(part_of(both, 0, 0, kWide / 2, kHigh), [](const auto* p) { return double(p[1]); });
   const Vector2 place = expected_place(point, -0.5 * kEyes, double(kWide) / kHigh);
@@ -207,7 +207,7 @@ TEST(StereoDisplay, ThePointerIsAtItsPlaceInBothEyes) {
   const Vector3 tip(-0.2, 0.1, 0.8);
   DisplayWish wish = wish_of(StereoKind::TopBottom);
   wish.marker_size = 0.02;
-  const charts::Image both = picture(std::make_shared<const render::RenderScene>(), wish, tip);
+  const charts::Image both = eyes_picture(std::make_shared<const render::RenderScene>(), wish, tip);
   for (const int side : {0, 1}) {
     const charts::Image one = part_of(both, 0, side * kHigh / 2, kWide, kHigh / 2);
     const Vector2 found = middle_of(one, [](const auto* p) { return p[2] > 40 ? 1.0 : 0.0; });
@@ -225,7 +225,7 @@ TEST(StereoDisplay, PanelsThatLieInTheSceneAreDrawnForBothEyes) {
   const Vector3 centre(0.1, 0.0, 0.5);
   wish.look.overlay.panels.push_back(
       {.picture = panel, .at = centre, .lying = std::array{Vector3(0.1, 0.0, 0.0), Vector3(0.0, 0.1, 0.0)}});
-  const charts::Image both = picture(std::make_shared<const render::RenderScene>(), wish);
+  const charts::Image both = eyes_picture(std::make_shared<const render::RenderScene>(), wish);
   for (const int side : {0, 1}) {
     const charts::Image one = part_of(both, side * kWide / 2, 0, kWide / 2, kHigh);
     const Vector2 found = middle_of(one, [](const auto* p) { return double(p[1]); });

@@ -12,33 +12,33 @@ using base::Vector3;
 using interaction::Eye;
 using interaction::StereoKind;
 
-SceneInput whole(double x, double y) { return {.at = {x, y}, .size = {800.0, 600.0}}; }
+SceneInput over_scene(double x, double y) { return {.at = {x, y}, .size = {800.0, 600.0}}; }
 
 TEST(SceneInput, EachHalfIsThePictureOfAnEye) {
   const interaction::StereoSettings beside = {StereoKind::SideBySide};
-  const SceneInput left = in_eye(whole(100.0, 150.0), beside), right = in_eye(whole(500.0, 150.0), beside);
+  const SceneInput left = in_eye(over_scene(100.0, 150.0), beside), right = in_eye(over_scene(500.0, 150.0), beside);
   EXPECT_EQ(left.eye, Eye::Left);
   EXPECT_EQ(right.eye, Eye::Right);
   EXPECT_EQ(left.at, QPointF(100.0, 150.0));
   EXPECT_EQ(right.at, left.at);
   EXPECT_EQ(right.size, QSizeF(400.0, 600.0));
   EXPECT_EQ(right.in_window, QPointF(500.0, 150.0));
-  const SceneInput below = in_eye(whole(100.0, 450.0), {StereoKind::TopBottom});
+  const SceneInput below = in_eye(over_scene(100.0, 450.0), {StereoKind::TopBottom});
   EXPECT_EQ(below.eye, Eye::Right);
   EXPECT_EQ(below.at, QPointF(100.0, 150.0));
   EXPECT_EQ(below.size, QSizeF(800.0, 300.0));
-  EXPECT_EQ(in_eye(whole(500.0, 450.0), {StereoKind::Anaglyph}).eye, Eye::Middle);
-  EXPECT_EQ(in_eye(whole(500.0, 450.0), {}).at, QPointF(500.0, 450.0));
+  EXPECT_EQ(in_eye(over_scene(500.0, 450.0), {StereoKind::Anaglyph}).eye, Eye::Middle);
+  EXPECT_EQ(in_eye(over_scene(500.0, 450.0), {}).at, QPointF(500.0, 450.0));
 }
 
 TEST(SceneInput, AHeldButtonStaysWithItsEye) {
-  const SceneInput dragged = in_eye(whole(500.0, 150.0), {StereoKind::SideBySide}, Eye::Left);
+  const SceneInput dragged = in_eye(over_scene(500.0, 150.0), {StereoKind::SideBySide}, Eye::Left);
   EXPECT_EQ(dragged.eye, Eye::Left);
   EXPECT_EQ(dragged.at, QPointF(500.0, 150.0)) << "beyond its edge, without a leap";
 }
 
 TEST(SceneInput, SqueezedHalvesCountAsTheyAreStretched) {
-  const SceneInput input = in_eye(whole(500.0, 150.0), {StereoKind::SideBySide, 0.063, true});
+  const SceneInput input = in_eye(over_scene(500.0, 150.0), {StereoKind::SideBySide, 0.063, true});
   EXPECT_EQ(input.at, QPointF(200.0, 150.0));
   EXPECT_EQ(input.size, QSizeF(800.0, 600.0));
 }
@@ -100,7 +100,7 @@ TEST_F(EyesTest, TheMouseMeetsWhatTheEyeSeesThroughTheWindow) {
     input.at = {0.5 * (1.0 + place.x()) * input.size.width(), 0.5 * (1.0 - place.y()) * input.size.height()};
     return input;
   };
-  const SceneInput middle = mouse(eye, whole(0.0, 0.0));
+  const SceneInput middle = mouse(eye, over_scene(0.0, 0.0));
   const auto picked = session().stage().pick_seen(middle.ray(session().view()));
   ASSERT_TRUE(picked);
   EXPECT_LT((picked->place.point - face).norm(), 1e-3);
@@ -109,7 +109,7 @@ TEST_F(EyesTest, TheMouseMeetsWhatTheEyeSeesThroughTheWindow) {
   // Each eye with its own half, which is the whole screen squeezed.
   session().view().set_stereo({StereoKind::SideBySide, 0.1, true});
   session().update();
-  const SceneInput left = in_eye(whole(10.0, 10.0), session().view().stereo());
+  const SceneInput left = in_eye(over_scene(10.0, 10.0), session().view().stereo());
   const auto by_left =
       session().stage().pick_seen(mouse(eye - scale * Vector3(0.05, 0.0, 0.0), left).ray(session().view()));
   ASSERT_TRUE(by_left);
