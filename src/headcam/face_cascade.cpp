@@ -15,7 +15,7 @@ namespace {
 constexpr double kScaleStep = 1.1;   // from one size of windows to the next
 constexpr int kStep = 2;             // pixels from one window to the next
 constexpr int kLeastWindows = 4;     // around a face
-constexpr double kSameFace = 0.3;    // of the size, between windows of one face
+constexpr double kSameFace = 0.2;    // of the size, between sides of windows of one face
 constexpr int kLargestWindow = 256;  // pixels
 
 std::vector<double> numbers_in(std::string_view text) {
@@ -137,28 +137,34 @@ GreyPicture shrunk(const GreyPicture& picture, double scale) {
   return small;
 }
 
+/// Are all four sides of both nearly in the same places?
 bool is_same_face(const SeenFace& one, const SeenFace& other) {
   const double slack = kSameFace * std::min(one.size, other.size);
-  return std::abs(one.x - other.x) <= slack && std::abs(one.y - other.y) <= slack &&
-         std::abs(one.size - other.size) <= slack;
+  const auto near = [&](double a, double b) { return std::abs(a - b) <= slack; };
+  return near(one.x, other.x) && near(one.y, other.y) && near(one.x + one.size, other.x + other.size) &&
+         near(one.y + one.size, other.y + other.size);
 }
 
-/// The means of windows that are nearly the same.
-std::vector<SeenFace> gathered(const std::vector<SeenFace>& windows) {
+/// The means of windows that are nearly the same as others, from one to the next.
+std::vector<SeenFace> gathered(std::vector<SeenFace> windows) {
   std::vector<SeenFace> faces;
-  for (const SeenFace& it : windows) {
-    const auto found =
-        std::ranges::find_if(faces, [&](const SeenFace& face) { return is_same_face(face, it); });
-    if (found == faces.end()) {
-      faces.push_back(it);
-      continue;
+  while (!windows.empty()) {
+    std::vector<SeenFace> same = {windows.back()};
+    windows.pop_back();
+    for (std::size_t i = 0; i < same.size(); ++i) {
+      const auto others = std::partition(windows.begin(), windows.end(),
+                                         [&](const SeenFace& it) { return !is_same_face(it, same[i]); });
+      same.insert(same.end(), others, windows.end());
+      windows.erase(others, windows.end());
     }
-    const double share = 1.0 / ++found->windows;
-    found->x += share * (it.x - found->x);
-    found->y += share * (it.y - found->y);
-    found->size += share * (it.size - found->size);
+    SeenFace face{0.0, 0.0, 0.0, int(same.size())};
+    for (const SeenFace& it : same) {
+      face.x += it.x / face.windows;
+      face.y += it.y / face.windows;
+      face.size += it.size / face.windows;
+    }
+    if (face.windows >= kLeastWindows) faces.push_back(face);
   }
-  std::erase_if(faces, [](const SeenFace& it) { return it.windows < kLeastWindows; });
   return faces;
 }
 

@@ -2,12 +2,14 @@
 import csv
 import json
 import math
+import pathlib
 import random
 import unittest
 
 from icome_program import ProgramTest, SHARED_MESHES
-from png_pixels import write
+from png_pixels import pixels, write
 
+CASCADE = pathlib.Path("/usr/share/opencv4/haarcascades/haarcascade_frontalface_default.xml")  # of opencv-data
 SHARED_MOTION = SHARED_MESHES.parent / "motion"
 MOVES = [(0.12, 1.5, 0.22, 0.5), (0.05, 3.0, 0.22, 0.1), (0.02, 1.0, 0.22, 0.1)]  # m, of table 5.4
 TURNS = [(5, 0.5, 45, 0.1), (5, 0.8, 45, 0.1), (5, 0.2, 45, 0.1)]  # degrees
@@ -216,6 +218,40 @@ class HeadTest(ProgramTest):
             for found, true, slack in zip(row[1:4], place, (0.001, 0.001, 0.012)):
                 self.assertAlmostEqual(found, true, delta=slack)
         self.view(trace)  # it is a motion as any other
+
+    def test_a_face_is_found(self):
+        """The face of a scanned head, drawn by our own renderer, at places in a grey picture. Skipped where it is not
+        there, or Debian's cascade is not."""
+        mesh = SHARED_MESHES / "anatomy" / "face.obj"
+        if not mesh.exists():
+            self.skipTest(f"the shared data is not here: {mesh}")
+        if not CASCADE.exists():
+            self.skipTest("the package opencv-data is not installed")
+        drawn = self.folder / "face.png"
+        sizes = {}
+        for side in (100, 160):
+            self.succeeds("shot", mesh, drawn, "--up", "z", "--view", "front", "--size", f"{side}x{side}",
+                          "--background", "#808080")
+            sizes[side] = pixels(drawn)[2]
+        folder = self.folder / "faces"
+        folder.mkdir()
+        places = [(60, 30, 100), (160, 30, 100), (60, 80, 100), (120, 50, 160)]
+        for number, (left, top, side) in enumerate(places):
+            rows = [bytearray(b"\x80\x80\x80" * 320) for _ in range(240)]
+            for y, row in enumerate(sizes[side]):
+                rows[top + y][3 * left:3 * (left + side)] = b"".join(bytes(pixel[:3]) for pixel in row)
+            write(folder / f"{number}.png", [bytes(row) for row in rows])
+        trace = self.folder / "faces.txt"
+        report = json.loads(self.succeeds("head", "--record", f"camera:{folder}?field=60", "--out", trace,
+                                          "--json").stdout)
+        self.assertEqual((report["pictures"], report["found"]), (4, 4))
+        first, right, low, near = (list(map(float, row.split()))[1:4] for row in trace.read_text().splitlines()[1:])
+        # To the picture's right is to the user's left.
+        metres = first[2] / (320 * 0.5 / math.tan(math.radians(30)))  # of a pixel at the face
+        self.assertAlmostEqual(right[0] - first[0], -100 * metres, delta=4 * metres)
+        self.assertAlmostEqual(right[1] - first[1], 0, delta=4 * metres)
+        self.assertAlmostEqual(low[1] - first[1], -50 * metres, delta=4 * metres)
+        self.assertAlmostEqual(near[2] / first[2], 100 / 160, delta=0.06)
 
     def test_cameras_that_cannot_be_used_are_told(self):
         out = self.folder / "camera.toml"

@@ -204,7 +204,9 @@ TEST(CameraHead, SaysWhatIsMissing) {
             std::string::npos);
   EXPECT_FALSE(CameraHead::create("camera-marker?colour=grey"));
   const auto face = face_finder();
-  if (!face) EXPECT_NE(face.error().message.find("opencv-data"), std::string::npos);
+  if (!face) {
+    EXPECT_NE(face.error().message.find("opencv-data"), std::string::npos);
+  }
   EXPECT_NE(face_finder("/no/such/cascade.xml").error().message.find("/no/such/cascade.xml"),
             std::string::npos);
 }

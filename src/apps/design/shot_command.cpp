@@ -106,7 +106,7 @@ render::SceneLook look_of(const ShotOptions& options, const render::RenderScene&
 }
 
 base::Result<charts::Image> shot_picture(const render::RenderScene& scene, const render::Camera& camera,
-                                 const ShotOptions& options) {
+                                         const ShotOptions& options) {
   const render::SceneLook look = look_of(options, scene);
   if (!has_own_eyes(options)) return render::draw_picture(scene, camera, look, options.width, options.height);
   const ShotEyes eyes = shot_eyes(camera, scene.bounds(), options);

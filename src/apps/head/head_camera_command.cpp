@@ -34,7 +34,7 @@ base::Result<headcam::HeadCameraAddress> head_camera_of(const std::string& addre
 
 /// Shows each picture until the source ends, the seconds (of its own clock) are over, or Ctrl-C.
 base::Result<void> look_at_head(const std::string& source, std::optional<double> seconds,
-                           const std::function<void(const cutout::Frame&)>& look) {
+                                const std::function<void(const cutout::Frame&)>& look) {
   const auto frames = cutout::open_source(source, {});
   if (!frames) return tl::unexpected(frames.error());
   if (!seconds && (*frames)->is_live()) seconds = kHeadCameraSeconds;
@@ -67,8 +67,9 @@ int run_head_calibration(const HeadOptions& options) {
   StatusLine status;
   status.say("Keep still");
   headcam::HeadCalibration calibration;
-  const auto looked = look_at_head(address->source, options.seconds,
-                              [&](const cutout::Frame& frame) { calibration.take(frame.view(), **finder); });
+  const auto looked = look_at_head(address->source, options.seconds, [&](const cutout::Frame& frame) {
+    calibration.take(frame.view(), **finder);
+  });
   status.clear();
   if (!looked) return camera_failed(looked.error());
   const auto camera = calibration.result(address->camera, options.distance);

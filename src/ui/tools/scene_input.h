@@ -38,8 +38,8 @@ QSizeF eye_size(const QSizeF& scene, const interaction::StereoSettings& stereo);
 SceneInput in_eye(const SceneInput& whole, const interaction::StereoSettings& stereo,
                   std::optional<interaction::Eye> held = std::nullopt);
 
-/// A place in the picture of an eye, of eye_size(), as a place in a scene of that size; in the left eye's picture
-/// where each has a part of the scene.
+/// A place in the picture of an eye, of eye_size(), as a place in a scene of that size; in the left eye's
+/// picture where each has a part of the scene.
 QPointF in_scene(const QPointF& at, const QSizeF& scene, const interaction::StereoSettings& stereo);
 
 }  // namespace icome::ui

@@ -56,8 +56,8 @@ render::RenderScenePointer scene_with_cube(const Vector3& centre, double size) {
 
 /// The picture that a feed draws in the end, rows from the top.
 charts::Image eyes_picture(const render::RenderScenePointer& scene, const DisplayWish& wish,
-                      const std::optional<Vector3>& tip = std::nullopt, int width = kWide,
-                      int height = kHigh) {
+                           const std::optional<Vector3>& tip = std::nullopt, int width = kWide,
+                           int height = kHigh) {
   LiveRenderer live(width, height);
   DisplayFeed feed(1);
   feed.publish(scene);
@@ -194,7 +194,8 @@ TEST(StereoDisplay, HalvesAreThePicturesOfTheEyes) {
 TEST(StereoDisplay, SqueezedHalvesHoldTheWholePicture) {
   REQUIRE_OPENGL();
   const Vector3 point(0.6, -0.3, 0.0);
-  const charts::Image both = eyes_picture(scene_with_cube(point, 0.05), wish_of(StereoKind::SideBySide, true));
+  const charts::Image both =
+      eyes_picture(scene_with_cube(point, 0.05), wish_of(StereoKind::SideBySide, true));
   const Vector2 found =
       middle_of(part_of(both, 0, 0, kWide / 2, kHigh), [](const auto* p) { return double(p[1]); });
   const Vector2 place = expected_place(point, -0.5 * kEyes, double(kWide) / kHigh);

@@ -16,7 +16,8 @@ SceneInput over_scene(double x, double y) { return {.at = {x, y}, .size = {800.0
 
 TEST(SceneInput, EachHalfIsThePictureOfAnEye) {
   const interaction::StereoSettings beside = {StereoKind::SideBySide};
-  const SceneInput left = in_eye(over_scene(100.0, 150.0), beside), right = in_eye(over_scene(500.0, 150.0), beside);
+  const SceneInput left = in_eye(over_scene(100.0, 150.0), beside),
+                   right = in_eye(over_scene(500.0, 150.0), beside);
   EXPECT_EQ(left.eye, Eye::Left);
   EXPECT_EQ(right.eye, Eye::Right);
   EXPECT_EQ(left.at, QPointF(100.0, 150.0));
