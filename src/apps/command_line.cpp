@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <map>
@@ -13,6 +14,7 @@
 #include "apps/desktop/desktop_command.h"
 #include "apps/devices/devices_command.h"
 #include "apps/devices/devices_help.h"
+#include "apps/eye_options.h"
 #include "apps/help_text.h"
 #include "apps/number_range.h"
 #include "apps/serving/serving_command.h"
@@ -39,7 +41,8 @@ struct Entries {
   EditOptions edit;
   ShotOptions shot;
   std::string shot_size;
-  std::string shot_background;
+  std::string shot_background, shot_eye;
+  EyeOptions shot_eyes;
   StatsOptions stats;
   StudyOptions study;
   TechniquesOptions techniques;
@@ -326,6 +329,13 @@ void add_shot_options(CLI::App& shot, Entries& entries) {
   shot.add_option("--background", entries.shot_background,
                   "#rrggbb, white, black, or none for a clear one (default: a soft gradient)")
       ->type_name("COLOR");
+  add_eye_options(shot, entries.shot_eyes,
+                  "Width and height in mm of the screen on which the picture is to be seen (default: as the "
+                  "view is wide, from 600 mm)");
+  shot.add_option("--eye", entries.shot_eye,
+                  "Place of the eye in mm from the middle of the screen: to the right, up and towards you "
+                  "(default 0,0,600)")
+      ->type_name("X,Y,Z");
   add_reading_options(shot, options.reading);
   shot.add_flag("--json", options.json, "Print what was drawn as JSON (fields below)");
 }
@@ -357,6 +367,30 @@ void add_desktop_options(CLI::App& app, DesktopCommandOptions& options) {
   add_device_options(app, options.devices);
 }
 
+/// The picture takes the shape of the screen, which has square pixels.
+base::Result<void> fit_to_screen(bool has_size, ShotOptions& options) {
+  constexpr double kSlack = 0.01;
+  const double height = options.width * options.screen->y() / options.screen->x();
+  if (!has_size) options.height = std::clamp(int(std::lround(height)), 1, 16384);
+  if (std::abs(height - options.height) <= std::max(1.0, kSlack * height)) return {};
+  return base::fail(fmt::format("--size {}x{} has not the shape of --screen: leave one of them out.",
+                                options.width, options.height));
+}
+
+base::Result<void> take_eyes(const Entries& entries, ShotOptions& options) {
+  options.stereo = stereo_settings(entries.shot_eyes);
+  if (!entries.shot_eye.empty()) {
+    const auto eye = parse_eye(entries.shot_eye);
+    if (!eye) return tl::unexpected(eye.error());
+    options.eye = *eye;
+  }
+  if (entries.shot_eyes.screen.empty()) return {};
+  const auto screen = parse_screen(entries.shot_eyes.screen);
+  if (!screen) return tl::unexpected(screen.error());
+  options.screen = *screen;
+  return fit_to_screen(!entries.shot_size.empty(), options);
+}
+
 base::Result<ShotOptions> understood_shot(const Entries& entries) {
   ShotOptions options = entries.shot;
   if (!entries.shot_size.empty()) {
@@ -367,6 +401,7 @@ base::Result<ShotOptions> understood_shot(const Entries& entries) {
     if (const auto parsed = parse_background(entries.shot_background, options); !parsed)
       return tl::unexpected(parsed.error());
   }
+  if (const auto eyes = take_eyes(entries, options); !eyes) return tl::unexpected(eyes.error());
   if (options.out == options.file)
     return base::fail("the picture would replace the design; give another name.");
   return options;
@@ -432,7 +467,8 @@ base::Result<DesktopCommandOptions> understood_desktop(const DesktopCommandOptio
   if (app.get_subcommands().empty()) return options;
   if (!options.devices.is_default())
     return base::fail(
-        "--device, --head and --navigation before a command are for the window; they come after study run, "
+        "--device, --head, --stereo and --navigation before a command are for the window; they come after "
+        "study run, "
         "and --device after touch.");
   if (!options.theme.empty()) return base::fail("--theme is for the window, and no command opens it.");
   if (!options.menu.empty()) return base::fail("--menu is for the window, and no command opens it.");
@@ -588,7 +624,7 @@ CommandLine parse_command_line(int argc, char** argv) {
     command_line.serving = std::move(entries.serving);
   } else if (entries.keep.list || !entries.keep.address.empty()) {
     command_line.keep = std::move(entries.keep);
-  } else if (entries.head.print_table || !entries.head.trace.empty()) {
+  } else if (entries.head.is_given()) {
     command_line.head = std::move(entries.head);
   } else if (!entries.menu.file.empty()) {
     command_line.menu = std::move(entries.menu);

@@ -127,7 +127,9 @@ base::Result<std::unique_ptr<HeadDevice>> open_head(std::string_view name) {
   }
   if (!name.starts_with("vrpn:"))
     return base::fail(
-        fmt::format("{}: a tracker for the head is named vrpn:NAME@HOST:PORT or trace:FILE", name));
+        fmt::format("{}: a tracker for the head is named vrpn:NAME@HOST:PORT, camera, "
+                    "camera-marker or trace:FILE",
+                    name));
   auto head = VrpnHead::create(address_of(name));
   if (!head) return tl::unexpected(head.error());
   return std::move(*head);

@@ -15,6 +15,8 @@ class HeadDevice {
   /// Reads the pose of the head (m; origin between the eyes, looking along -z, y up) relative to its pose for
   /// a look straight ahead. `user_from_head` keeps its old value unless Ok is returned. Never waits.
   virtual DeviceStatus read(Pose& user_from_head) = 0;
+  /// After Lost: what is wrong and what to do, in a sentence; empty where nothing is known.
+  virtual std::string why_lost() const { return {}; }
 };
 
 }  // namespace icome::devices

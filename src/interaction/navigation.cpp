@@ -14,6 +14,7 @@ using std::numbers::pi;
 // The least and the greatest distance of view, m: from a part of the smallest primitive to the Moon.
 constexpr double kNearest = 1e-10;
 constexpr double kFarthest = 1e9;
+constexpr double kMostShift = 100.0;  // a tangent
 
 /// The value clamped to its range; `otherwise` where it is not finite.
 double within(double value, double least, double most, double otherwise) {
@@ -111,6 +112,7 @@ View usable(const View& view) {
   const View standard;
   result.field = within(view.field, 0.05, 2.5, standard.field);
   result.distance = within(view.distance, kNearest, kFarthest, standard.distance);
+  for (double& it : result.shift) it = within(it, -kMostShift, kMostShift, 0.0);
   const Vector3 eye = view.world_from_eye.translation();
   result.world_from_eye.translation() = eye.allFinite()
                                             ? Vector3(eye.cwiseMax(-kFarthest).cwiseMin(kFarthest))
@@ -132,12 +134,20 @@ Eigen::Vector2d half_picture(const View& view, double aspect) {
 
 Ray ray_through(const View& view, double x, double y, double aspect) {
   const Eigen::Vector2d half = half_picture(view, aspect);
-  const Pose world_from_eye = usable(view).world_from_eye;
-  const Vector3 direction(half.x() * within(x, -1e3, 1e3, 0.0), half.y() * within(y, -1e3, 1e3, 0.0), -1.0);
-  return {world_from_eye.translation(), world_from_eye.linear() * direction.normalized()};
+  const View from = usable(view);
+  const Vector3 direction(from.shift.x() + half.x() * within(x, -1e3, 1e3, 0.0),
+                          from.shift.y() + half.y() * within(y, -1e3, 1e3, 0.0), -1.0);
+  return {from.world_from_eye.translation(), from.world_from_eye.linear() * direction.normalized()};
 }
 
-Vector3 looked_at(const View& view) { return view.world_from_eye * Vector3(0.0, 0.0, -view.distance); }
+Vector3 looked_at(const View& view) {
+  return view.world_from_eye * (view.distance * Vector3(view.shift.x(), view.shift.y(), -1.0));
+}
+
+bool is_same_view(const View& one, const View& other) {
+  return one.world_from_eye.matrix() == other.world_from_eye.matrix() && one.field == other.field &&
+         one.distance == other.distance && one.shift == other.shift;
+}
 
 View orbited(const View& view, double right, double up) {
   const View from = usable(view);

@@ -13,7 +13,13 @@ struct View {
   Pose world_from_eye = Pose(Eigen::Translation3d(0.0, 0.0, 1.0));
   double field = 0.6;     // rad, of the shorter side of the picture; 0.05 to 2.5
   double distance = 1.0;  // m, from the eye to the point looked at, about which orbiting turns; > 0
+  /// Tangents of the angles from straight ahead to the picture's middle, to the right and up: 0 but for an
+  /// eye that is not before the middle of its screen (seen_from()).
+  base::Vector2 shift = base::Vector2::Zero();
 };
+
+/// Do both show the same picture?
+bool is_same_view(const View& one, const View& other);
 
 /// The thing that the navigation device moves (thesis 2.4.2).
 enum class NavigationMode : std::uint8_t { Camera, Hand };
@@ -24,13 +30,14 @@ struct Ray {
   Vector3 direction = -Vector3::UnitZ();  // unit
 };
 
-/// Half the picture's width and height at 1 m from the eye, m; aspect is width over height.
+/// Half the picture's width and height at 1 m from the eye, m; aspect is width over height. Its middle is at
+/// View::shift.
 Eigen::Vector2d half_picture(const View& view, double aspect);
 
 /// The ray through a place in the picture: x and y in [-1, 1] from left to right and from bottom to top.
 Ray ray_through(const View& view, double x, double y, double aspect);
 
-/// The point at `distance` straight ahead of the eye.
+/// The point at `distance` ahead of the eye in the picture's middle.
 Vector3 looked_at(const View& view);
 
 /// The view with impossible values (not a number, out of range, not rigid) put right.

@@ -38,6 +38,11 @@ SessionParts::SessionParts(SessionSettings given,
       addresses(settings.autosave_folder.empty() ? std::filesystem::path()
                                                  : settings.autosave_folder.parent_path() / "addresses") {
   user.set_head_transfer(settings.head_transfer);
+  user.set_head_filter(settings.head_filter);
+  stereo = settings.stereo;
+  user.set_eye_distance(stereo.eye_distance);
+  fish_tank = settings.fish_tank;
+  renew_fish_tank();
   for (std::size_t i = 0; i < pointers.size(); ++i) pointers[i].number = i + 1;
 }
 

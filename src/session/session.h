@@ -11,7 +11,9 @@
 #include "devices/navigation_device.h"
 #include "devices/pointer_device.h"
 #include "haptics/servo/servo.h"
+#include "interaction/head/head_filter.h"
 #include "interaction/head/head_transfer.h"
+#include "interaction/screen_view.h"
 #include "session/representation.h"
 #include "session/session_files.h"
 #include "session/session_hands.h"
@@ -36,6 +38,11 @@ struct SessionSettings {
   std::unique_ptr<devices::HeadDevice> head = nullptr;              // may be null
   /// How far the eye goes along with the head; nothing: as far as the head does.
   std::optional<interaction::HeadTransfer> head_transfer = interaction::HeadTransfer::of_thesis();
+  interaction::HeadFilterSettings head_filter = {};
+  interaction::StereoSettings stereo = {};
+  bool fish_tank = false;  // the screen is a window into the world
+  /// The size of the whole display, m; nothing: as the display tells it.
+  std::optional<base::Vector2> display_size = {};
   haptics::ServoSettings servo = {};
   /// Further representations of the world besides those for hand and eye, each on a thread of its own.
   std::vector<std::unique_ptr<Representation>> representations = {};

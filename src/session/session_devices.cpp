@@ -119,8 +119,7 @@ void SessionParts::close_gone() {
 /// Fits workspaces to the view once it rests, where that lets go of nothing.
 void SessionParts::follow_view_scale(double dt) {
   const interaction::View& view = user.view();
-  const bool rests = view.world_from_eye.matrix() == rested_view.world_from_eye.matrix() &&
-                     view.field == rested_view.field && view.distance == rested_view.distance;
+  const bool rests = is_same_view(view, rested_view);
   rested_view = view;
   view_rests_for = rests ? view_rests_for + dt : 0.0;
   if (view_rests_for < kViewRests) return;

@@ -139,6 +139,8 @@ struct SessionParts {
   void renew_workspaces();
   void mark_part(const std::optional<MarkedPart>& marked);
   void publish_wish();
+  interaction::StereoSettings stereo_now() const;
+  void renew_fish_tank();
 
   // session_techniques.cpp
   TechniqueMoment technique_moment() const;
@@ -199,7 +201,11 @@ struct SessionParts {
   UserInteraction user;
   std::int64_t technique_since = 0;  // ns, when the technique was chosen
   std::int64_t moved_at = 0;         // ns, when the user moved last; 0: not yet
-  interaction::View drawn_view;
+  interaction::View drawn_view, drawn_left;
+  interaction::StereoSettings stereo;  // as a person has chosen it
+  std::optional<bool> asked_stereo;    // a trial's wish, whatever was chosen
+  bool fish_tank = false;
+  interaction::FishTank screen;
   double view_rests_for = 0.0;  // s
   interaction::View rested_view;
   std::vector<WorkspaceMark> workspaces;  // as they are drawn

@@ -154,6 +154,16 @@ void SessionParts::mark_part(const std::optional<MarkedPart>& marked) {
   look_is_new = true;
 }
 
+interaction::StereoSettings SessionParts::stereo_now() const {
+  using interaction::StereoKind;
+  interaction::StereoSettings now = stereo;
+  if (asked_stereo == false) now.kind = StereoKind::Off;
+  if (asked_stereo == true && now.kind == StereoKind::Off) now.kind = StereoKind::Anaglyph;
+  return now;
+}
+
+void SessionParts::renew_fish_tank() { user.set_fish_tank(fish_tank ? std::optional(screen) : std::nullopt); }
+
 void SessionParts::publish_wish() {
   renew_people();
   renew_outline();
@@ -161,14 +171,18 @@ void SessionParts::publish_wish() {
   renew_symbols();
   renew_parts();
   renew_workspaces();
+  using interaction::Eye;
   const interaction::View& now = user.drawn_view();
-  if (now.world_from_eye.matrix() != drawn_view.world_from_eye.matrix() || now.field != drawn_view.field ||
-      now.distance != drawn_view.distance)
+  if (!is_same_view(now, drawn_view) || !is_same_view(user.drawn_view(Eye::Left), drawn_left))
     look_is_new = true;
   if (!std::exchange(look_is_new, false)) return;
   drawn_view = now;
+  drawn_left = user.drawn_view(Eye::Left);
   DisplayWish wish = look;
   wish.view = now;
+  wish.stereo = stereo_now();
+  wish.left = drawn_left;
+  wish.right = user.drawn_view(Eye::Right);
   if (!outlined.empty()) wish.look.outlines.push_back({outlined, look.selection});
   wish.look.outlines.insert(wish.look.outlines.end(), held_outlines.begin(), held_outlines.end());
   add_marks(wish.look.overlay, symbols);
@@ -223,7 +237,38 @@ double SessionView::aspect() const { return parts_.aspect; }
 
 interaction::NavigationMode SessionView::navigation_mode() const { return parts_.user.mode(); }
 
-const interaction::View& SessionView::drawn_view() const { return parts_.user.drawn_view(); }
+const interaction::View& SessionView::drawn_view(interaction::Eye eye) const {
+  return parts_.user.drawn_view(eye);
+}
+
+void SessionView::set_stereo(const interaction::StereoSettings& stereo) {
+  if (stereo == parts_.stereo) return;
+  parts_.stereo = stereo;
+  parts_.user.set_eye_distance(stereo.eye_distance);
+  parts_.look_is_new = true;
+}
+
+void SessionView::ask_for_stereo(std::optional<bool> wanted) {
+  parts_.asked_stereo = wanted;
+  parts_.look_is_new = true;
+}
+
+interaction::StereoSettings SessionView::stereo() const { return parts_.stereo_now(); }
+
+void SessionView::set_fish_tank(bool on) {
+  parts_.fish_tank = on;
+  parts_.renew_fish_tank();
+}
+
+std::optional<base::Vector2> SessionView::display_size() const { return parts_.settings.display_size; }
+
+bool SessionView::is_fish_tank() const { return parts_.fish_tank; }
+
+void SessionView::set_screen(const base::Vector2& size) {
+  if (!(size.minCoeff() > 0.0) || !size.allFinite()) return;
+  parts_.screen.size = size;
+  parts_.renew_fish_tank();
+}
 
 bool SessionView::has_head() const { return parts_.user.has_head(); }
 

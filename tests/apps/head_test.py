@@ -2,11 +2,14 @@
 import csv
 import json
 import math
+import pathlib
 import random
 import unittest
 
 from icome_program import ProgramTest, SHARED_MESHES
+from png_pixels import pixels, write
 
+CASCADE = pathlib.Path("/usr/share/opencv4/haarcascades/haarcascade_frontalface_default.xml")  # of opencv-data
 SHARED_MOTION = SHARED_MESHES.parent / "motion"
 MOVES = [(0.12, 1.5, 0.22, 0.5), (0.05, 3.0, 0.22, 0.1), (0.02, 1.0, 0.22, 0.1)]  # m, of table 5.4
 TURNS = [(5, 0.5, 45, 0.1), (5, 0.8, 45, 0.1), (5, 0.2, 45, 0.1)]  # degrees
@@ -133,6 +136,133 @@ class HeadTest(ProgramTest):
         self.assertAlmostEqual(self.view(trace, "--table", table)[-1]["x"], 0.31)
         table.write_text("[move_x]\nslope1 = 1\nslope2 = 0\n")
         self.assertAlmostEqual(self.view(trace, "--table", table)[-1]["x"], 0.22)
+
+    def test_without_a_filter_the_view_is_not_behind(self):
+        rows = "".join(f"{i / 100!r} {0.2 + 0.002 * i!r} 0 0 0 0 0 1\n" for i in range(100))
+        trace = self.write("walk.txt", "0 0 0 0 0 0 0 1\n" + rows)
+        table = self.write("ones.toml", "[move_x]\nknee1_m = 0\nslope1 = 1\nslope2 = 1\n")
+        last = 0.2 + 0.002 * 99
+        self.assertAlmostEqual(self.view(trace, "--table", table, "--filter", "none")[-1]["x"], last)
+        self.assertAlmostEqual(self.view(trace, "--table", table)[-1]["x"], last - 2 * 0.002)
+        ahead = self.view(trace, "--table", table, "--predict-ms", "50")[-1]["x"]
+        self.assertAlmostEqual(ahead, last - 2 * 0.002 + 0.05 * 0.2)
+        steady = self.view(trace, "--table", table, "--filter", "one-euro")[-1]["x"]
+        self.assertTrue(last - 0.02 < steady < last)
+
+    def test_filters_are_compared(self):
+        chance = random.Random(7)
+        noise = 0.0003
+        rows = []
+        for i in range(3000):
+            t = i / 100
+            x = 0 if t < 20 else 0.1 * math.sin(2 * math.pi * 0.7 * (t - 20))
+            rows.append(" ".join(repr(part) for part in (t, x + chance.gauss(0, noise), chance.gauss(0, noise),
+                                                         chance.gauss(0, noise), 0, 0, 0, 1)))
+        trace = self.write("sway.txt", "\n".join(rows))
+        report = json.loads(self.succeeds("head", trace, "--compare", "--predict-ms", "20", "--json").stdout)
+        self.assertEqual(report["samples"], 3000)
+        scores = {(row["filter"], row["predict_ms"]): row for row in report["filters"]}
+        self.assertEqual(set(scores), {(name, ms) for name in ("none", "mean", "one-euro") for ms in (0, 20)})
+        none, mean = scores["none", 0], scores["mean", 0]
+        self.assertAlmostEqual(none["jitter_mm"], 1000 * noise * math.sqrt(3), delta=0.03)
+        self.assertAlmostEqual(mean["jitter_mm"], none["jitter_mm"] / math.sqrt(5), delta=0.03)
+        self.assertAlmostEqual(mean["lag_move_ms"], 20, delta=1)
+        self.assertAlmostEqual(scores["mean", 20]["lag_move_ms"], 0, delta=1.5)
+        self.assertIsNone(mean["lag_turn_ms"])
+        table = self.succeeds("head", trace, "--compare").stdout
+        self.assertIn("one-euro", table)
+        self.assertLessEqual(max(map(len, table.splitlines()[1:])), 100)
+        self.fails("head", trace, "--compare", "--out", self.folder / "o.csv", code=2, saying="--out")
+        self.fails("head", "--compare", code=2, saying="TRACE")
+        self.fails("head", trace, "--compare", "--filter", "median", code=2, saying="median")
+
+    def frames(self, name, places):
+        """A folder of pictures of a green ball of 40 mm at places (x, y, z) in m of the user's axes, by a camera with a
+        focal length of the picture's width."""
+        folder = self.folder / name
+        folder.mkdir()
+        width, height = 320, 240
+        for number, place in enumerate(places):
+            rows = []
+            for v in range(height):
+                row = bytearray()
+                for u in range(width):
+                    inside = 0.0
+                    if place:
+                        x, y, z = place
+                        radius = 0.02 / z * width
+                        centre = width / 2 - x / z * width, height / 2 - y / z * width
+                        gap = radius - math.dist((u + 0.5, v + 0.5), centre)
+                        inside = min(1.0, max(0.0, gap + 0.5))
+                    row += bytes(round((1 - inside) * grey + inside * green)
+                                 for grey, green in zip((120, 115, 110), (20, 180, 40)))
+                rows.append(bytes(row))
+            write(folder / f"{number}.png", rows)
+        return folder
+
+    def test_a_camera_is_calibrated_and_tells_places(self):
+        still = self.frames("still", [(0.0, 0.0, 0.6)] * 4)
+        camera = self.folder / "camera.toml"
+        marker = f"camera-marker:{still}?colour=#14b428&size=40"
+        report = json.loads(self.succeeds("head", "--calibrate", marker, "--distance-m", "0.6", "--out", camera,
+                                          "--json").stdout)
+        self.assertEqual((report["pictures"], report["found"]), (4, 4))
+        self.assertAlmostEqual(report["focal_widths"], 1.0, delta=0.01)
+        places = [(0.0, 0.0, 0.6), (0.08, 0.0, 0.6), (-0.05, 0.06, 0.5), None, (0.1, -0.1, 0.8)]
+        trace = self.folder / "trace.txt"
+        told = self.succeeds("head", "--record", f"camera-marker:{self.frames('moves', places)}?calibration={camera}",
+                             "--out", trace)
+        self.assertIn("found in 4 of 5 pictures", told.stdout)
+        rows = [list(map(float, row.split())) for row in trace.read_text().splitlines() if not row.startswith("#")]
+        for row, place in zip(rows, filter(None, places)):
+            for found, true, slack in zip(row[1:4], place, (0.001, 0.001, 0.012)):
+                self.assertAlmostEqual(found, true, delta=slack)
+        self.view(trace)  # it is a motion as any other
+
+    def test_a_face_is_found(self):
+        """The face of a scanned head, drawn by our own renderer, at places in a grey picture. Skipped where it is not
+        there, or Debian's cascade is not."""
+        mesh = SHARED_MESHES / "anatomy" / "face.obj"
+        if not mesh.exists():
+            self.skipTest(f"the shared data is not here: {mesh}")
+        if not CASCADE.exists():
+            self.skipTest("the package opencv-data is not installed")
+        drawn = self.folder / "face.png"
+        sizes = {}
+        for side in (100, 160):
+            self.succeeds("shot", mesh, drawn, "--up", "z", "--view", "front", "--size", f"{side}x{side}",
+                          "--background", "#808080")
+            sizes[side] = pixels(drawn)[2]
+        folder = self.folder / "faces"
+        folder.mkdir()
+        places = [(60, 30, 100), (160, 30, 100), (60, 80, 100), (120, 50, 160)]
+        for number, (left, top, side) in enumerate(places):
+            rows = [bytearray(b"\x80\x80\x80" * 320) for _ in range(240)]
+            for y, row in enumerate(sizes[side]):
+                rows[top + y][3 * left:3 * (left + side)] = b"".join(bytes(pixel[:3]) for pixel in row)
+            write(folder / f"{number}.png", [bytes(row) for row in rows])
+        trace = self.folder / "faces.txt"
+        report = json.loads(self.succeeds("head", "--record", f"camera:{folder}?field=60", "--out", trace,
+                                          "--json").stdout)
+        self.assertEqual((report["pictures"], report["found"]), (4, 4))
+        first, right, low, near = (list(map(float, row.split()))[1:4] for row in trace.read_text().splitlines()[1:])
+        # To the picture's right is to the user's left.
+        metres = first[2] / (320 * 0.5 / math.tan(math.radians(30)))  # of a pixel at the face
+        self.assertAlmostEqual(right[0] - first[0], -100 * metres, delta=4 * metres)
+        self.assertAlmostEqual(right[1] - first[1], 0, delta=4 * metres)
+        self.assertAlmostEqual(low[1] - first[1], -50 * metres, delta=4 * metres)
+        self.assertAlmostEqual(near[2] / first[2], 100 / 160, delta=0.06)
+
+    def test_cameras_that_cannot_be_used_are_told(self):
+        out = self.folder / "camera.toml"
+        self.fails("head", "--calibrate", "camera-marker:/no/such", "--out", out, code=1, saying="/no/such")
+        self.fails("head", "--calibrate", "vrpn:Head", "--out", out, code=1, saying="camera-marker")
+        self.fails("head", "--record", "camera-marker?colour=grey", "--out", out, code=1, saying="is no colour")
+        empty = self.frames("empty", [None] * 3)
+        self.fails("head", "--record", f"camera-marker:{empty}", "--out", out, code=1, saying="nothing was found")
+        self.fails("head", "--calibrate", f"camera-marker:{empty}", "--out", out, code=1, saying="in 0 of 3 pictures")
+        self.assertFalse(out.exists())
+        self.fails("head", "--calibrate", "camera", code=2, saying="--out")
 
     def test_what_is_wrong_is_named_and_loses_nothing(self):
         out = self.write("view.csv", "mine")

@@ -66,6 +66,49 @@ class ShotTest(ProgramTest):
             for got, want in zip(rows[0][0], corner):
                 self.assertAlmostEqual(got, want, delta=2)
 
+    def test_each_eye_gets_its_picture(self):
+        file = self.coloured_plates()
+        common = ["--view", "front", "--size", "120x80", "--background", "black"]
+        _, left = self.shot(file, *common, "--eye", "-40,0,600")
+        _, right = self.shot(file, *common, "--eye", "40,0,600")
+        self.assertNotEqual(left, right)
+        stereo = ["--eye-distance-mm", "80", "--stereo"]
+        report, both = self.shot(file, *common, *stereo, "side-by-side")
+        self.assertEqual((report["width"], report["height"], report["stereo"]), (240, 80, "side-by-side"))
+        self.assertEqual([row[:120] for row in both], left)
+        self.assertEqual([row[120:] for row in both], right)
+        _, both = self.shot(file, *common, *stereo, "top-bottom")
+        self.assertEqual(both, left + right)
+        _, both = self.shot(file, *common, *stereo, "anaglyph")
+        for row, of_left, of_right in zip(both, left, right):
+            self.assertEqual(row, [(l[0], r[1], r[2], r[3]) for l, r in zip(of_left, of_right)])
+
+    def test_the_screen_is_a_window(self):
+        """The red plate lies before the screen's plane, which goes through the middle of both, the green one behind it."""
+        def left_edge(rows, is_colour):
+            row = rows[len(rows) // 2]
+            return next(x for x, pixel in enumerate(row) if is_colour(pixel))
+        file = self.coloured_plates()
+        common = ["--view", "front", "--background", "black", "--screen", "600x400"]
+        def red(pixel):
+            return pixel[0] > 2 * pixel[1] and pixel[0] > 40
+        report, rows = self.shot(file, *common)
+        self.assertEqual((report["width"], report["height"]), (1280, 853))  # square pixels
+        _, straight = self.shot(file, *common, "--size", "300x200")
+        _, aside = self.shot(file, *common, "--size", "300x200", "--eye", "150,0,600")
+        # A metre of the world is the same everywhere on the plane of the screen (z = 0), where a pixel has m metres. A
+        # red edge at x = -1, z = 1 is seen there at e + (x - e) d / (d - 1), for an eye e to the right and d before it.
+        self.assertLess(left_edge(aside, red), left_edge(straight, red))
+        shift = left_edge(straight, red) - left_edge(aside, red)
+        first = 150 - left_edge(straight, red)  # pixels from the middle, of 1 m * d / (d - 1)
+        # The screen's 600 mm are 300 pixels, so that the eye's 600 mm before it are d = 300 pixels * m, and e = 75 pixels * m:
+        # first = (1 / m) d / (d - 1) = 300 / (300 m - 1), and the shift is e (d / (d - 1) - 1) / m = 75 / (300 m - 1).
+        self.assertAlmostEqual(shift, 75 / 300 * first, delta=1.5)
+        self.fails("shot", file, self.out, "--screen", "600x400", "--size", "100x100", code=2, saying="--screen")
+        self.fails("shot", file, self.out, "--screen", "600", code=2, saying="520x320")
+        self.fails("shot", file, self.out, "--eye", "0,0,-600", code=2, saying="towards you")
+        self.fails("shot", file, self.out, "--stereo", "shutter", code=2, saying="shutter")
+
     def test_up_can_be_chosen(self):
         file = self.coloured_plates()
         _, rows = self.shot(file, "--view", "top", "--up", "z", "--size", "60x60")

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/design/design_work.h"
+#include "apps/design/shot_eyes.h"
 #include "apps/interrupt.h"
 #include "apps/remote/remote_design.h"
 #include "apps/stopwatch.h"
@@ -17,6 +18,8 @@
 #include "io/new_file.h"
 #include "render/model/views.h"
 #include "render/pictures/picture_of_scene.h"
+#include "render/pictures/stereo_picture.h"
+#include "session/display/display_feed.h"
 #include "world/motion.h"
 
 namespace icome::apps {
@@ -25,6 +28,7 @@ namespace {
 /// The figures of a picture, for the report.
 struct ShotFigures {
   std::string view;
+  int width = 0, height = 0;  // pixels
   std::size_t objects = 0, triangles = 0;
   double read_seconds = 0.0, draw_seconds = 0.0;
   std::vector<std::string> remarks;
@@ -101,13 +105,28 @@ render::SceneLook look_of(const ShotOptions& options, const render::RenderScene&
   return look;
 }
 
+base::Result<charts::Image> shot_picture(const render::RenderScene& scene, const render::Camera& camera,
+                                         const ShotOptions& options) {
+  const render::SceneLook look = look_of(options, scene);
+  if (!has_own_eyes(options)) return render::draw_picture(scene, camera, look, options.width, options.height);
+  const ShotEyes eyes = shot_eyes(camera, scene.bounds(), options);
+  if (options.stereo.kind == interaction::StereoKind::Off)
+    return render::draw_picture(scene, eyes.middle, look, options.width, options.height);
+  return render::draw_stereo_picture(scene, eyes.eyes, session::layout_of(options.stereo.kind), look,
+                                     options.width, options.height);
+}
+
 std::string shot_json(const ShotFigures& figures, const ShotOptions& options) {
   nlohmann::ordered_json report;
   report["file"] = options.out.string();
-  report["width"] = options.width;
-  report["height"] = options.height;
+  report["width"] = figures.width;
+  report["height"] = figures.height;
   report["view"] = figures.view;
   if (options.time) report["time"] = *options.time;
+  if (options.stereo.kind != interaction::StereoKind::Off) {
+    report["stereo"] = interaction::name_of(options.stereo.kind);
+    report["eye_distance_mm"] = 1000.0 * options.stereo.eye_distance;
+  }
   report["objects"] = figures.objects;
   report["triangles"] = figures.triangles;
   report["read_seconds"] = figures.read_seconds;
@@ -121,7 +140,7 @@ std::string shot_json(const ShotFigures& figures, const ShotOptions& options) {
 std::string shot_text(const ShotFigures& figures, const ShotOptions& options) {
   return fmt::format(
       "{}: {} x {} pixels, view {}, {} object{}, {} triangles, read in {:.2g} s, drawn in {:.2g} s\n",
-      options.out.string(), options.width, options.height,
+      options.out.string(), figures.width, figures.height,
       figures.view.empty() ? "of the design" : figures.view, grouped(figures.objects),
       figures.objects == 1 ? "" : "s", grouped(figures.triangles), figures.read_seconds,
       figures.draw_seconds);
@@ -144,9 +163,10 @@ base::Result<ShotFigures> take_shot(const ShotOptions& options, StatusLine& stat
   const render::RenderScenePointer scene = scene_of(design->world, *id, options.time);
   const auto camera = choose_camera(*scene, options, figures.view);
   if (!camera) return tl::unexpected(camera.error());
-  const auto image =
-      render::draw_picture(*scene, *camera, look_of(options, *scene), options.width, options.height);
+  const auto image = shot_picture(*scene, *camera, options);
   if (!image) return tl::unexpected(image.error());
+  figures.width = image->width;
+  figures.height = image->height;
   const auto png = charts::encode_png(*image);
   if (!png) return tl::unexpected(png.error());
   if (interrupted()) return base::fail("interrupted");

@@ -5,6 +5,7 @@
 
 #include "apps/design/design_options.h"
 #include "base/result.h"
+#include "interaction/screen_view.h"
 
 namespace icome::apps {
 
@@ -21,6 +22,9 @@ struct ShotOptions {
   bool studio = false;                 // light it as a studio does even if the design has lights
   bool clear = false;                  // no background
   std::optional<unsigned> background;  // 0xrrggbb; none: a soft gradient
+  interaction::StereoSettings stereo;
+  std::optional<base::Vector2> screen;  // m; none: as large as the view is wide, 0.6 m off
+  std::optional<base::Vector3> eye;     // m, from the middle of the screen; none: 0.6 m straight before it
   bool json = false;
 };
 

@@ -61,8 +61,8 @@ Camera fit_scene(const RenderScene& scene, const ViewDirection& direction, doubl
   return fit_camera(outermost_points(scene), options);
 }
 
-Matrix4 lens_for(const base::Pose& camera_from_world, const base::Bounds& bounds, double field,
-                 double aspect) {
+Matrix4 lens_for(const base::Pose& camera_from_world, const base::Bounds& bounds, double field, double aspect,
+                 const base::Vector2& shift) {
   double nearest = 1.0, farthest = 1.0;
   if (!bounds.isEmpty()) {
     nearest = INFINITY;
@@ -80,7 +80,7 @@ Matrix4 lens_for(const base::Pose& camera_from_world, const base::Bounds& bounds
   const double tangent = std::tan(0.5 * field);
   const double x = aspect < 1.0 ? tangent : tangent * aspect;
   const double y = aspect < 1.0 ? tangent / aspect : tangent;
-  return perspective({-x, x, -y, y, near, far});
+  return perspective({shift.x() - x, shift.x() + x, shift.y() - y, shift.y() + y, near, far});
 }
 
 Camera look_from(const RenderViewpoint& viewpoint, const base::Bounds& bounds, double aspect) {

@@ -28,9 +28,10 @@ Camera fit_scene(const RenderScene& scene, const ViewDirection& direction, doubl
 /// The camera at a viewpoint of the design, without the stretching or mirroring of its placement.
 Camera look_from(const RenderViewpoint& viewpoint, const base::Bounds& bounds, double aspect);
 
-/// The perspective of a symmetric window that holds `field` (rad) along its shorter side; near and far are
-/// chosen so that depth tells things within the bounds (m, world frame) apart.
-Matrix4 lens_for(const base::Pose& camera_from_world, const base::Bounds& bounds, double field,
-                 double aspect);
+/// The perspective of a window that, before its middle, holds `field` (rad) along its shorter side; its
+/// middle lies `shift` (tangents, to the right and up) from straight ahead. Near and far are chosen so that
+/// depth tells things within the bounds (m, world frame) apart.
+Matrix4 lens_for(const base::Pose& camera_from_world, const base::Bounds& bounds, double field, double aspect,
+                 const base::Vector2& shift = base::Vector2::Zero());
 
 }  // namespace icome::render

@@ -14,6 +14,7 @@
 #include "render/scene/scene_markers.h"
 #include "render/scene/scene_panels.h"
 #include "render/scene/scene_pass.h"
+#include "render/scene/stereo_pass.h"
 
 namespace icome::render {
 namespace {
@@ -438,9 +439,23 @@ base::Result<void> SceneRenderer::draw(const RenderScene& scene, const Camera& c
 base::Result<void> SceneRenderer::draw_pass(const RenderScene& scene, const Camera& camera,
                                             const SceneLook& look, const SceneTarget& target, int number) {
   if (auto good = check_target(target); !good) return good;
+  stereo_.reset();
   const int passes = std::clamp(look.passes, 1, kMostPasses);
   return parts_->draw({scene, camera, look, target, windowed(camera, target.window), passes},
                       std::clamp(number, 0, passes - 1) + 1, number <= 0);
+}
+
+base::Vector2 share_of_eye(StereoLayout layout) {
+  return {layout == StereoLayout::SideBySide ? 0.5 : 1.0, layout == StereoLayout::TopBottom ? 0.5 : 1.0};
+}
+
+base::Result<void> SceneRenderer::draw_stereo_pass(const RenderScene& scene, const EyeCameras& eyes,
+                                                   StereoLayout layout, const SceneLook& look,
+                                                   const SceneTarget& target, int number) {
+  if (auto good = check_target(target); !good) return good;
+  const bool anew = !stereo_ || number <= 0;
+  if (!stereo_) stereo_ = std::make_unique<StereoPass>();
+  return stereo_->draw(scene, eyes, layout, look, target, anew ? 0 : number, parts_->programs);
 }
 
 }  // namespace icome::render

@@ -116,6 +116,20 @@ struct SceneTarget {
   PictureWindow window = {};  ///< the part of the camera's picture that it takes
 };
 
+class StereoPass;
+
+/// The cameras of both eyes.
+struct EyeCameras {
+  Camera left, right;
+};
+
+/// The place of each eye's picture in a stereo picture: red of the left eye with green and blue of the right,
+/// left beside right, or left above right.
+enum class StereoLayout : std::uint8_t { Anaglyph, SideBySide, TopBottom };
+
+/// The shares of the whole picture's width and height that the picture of an eye takes.
+base::Vector2 share_of_eye(StereoLayout layout);
+
 /// Draws scenes in the OpenGL context (3.3, core or compatible) that is current where it is made, used and
 /// destroyed; knows no window. Keeps shapes, pictures and shaders on the graphics card from one picture to
 /// the next. It never waits for a world: scenes are immutable. Owns all it has in the context.
@@ -141,9 +155,15 @@ class SceneRenderer {
   base::Result<void> draw_pass(const RenderScene& scene, const Camera& camera, const SceneLook& look,
                                const SceneTarget& target, int number);
 
+  /// As draw_pass(), with a picture for each eye. The window of the target must be all of the picture. What
+  /// this keeps on the graphics card besides goes with the next draw_pass().
+  base::Result<void> draw_stereo_pass(const RenderScene& scene, const EyeCameras& eyes, StereoLayout layout,
+                                      const SceneLook& look, const SceneTarget& target, int number);
+
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;
+  std::unique_ptr<StereoPass> stereo_;  // null: not drawn in stereo
 };
 
 }  // namespace icome::render

@@ -38,13 +38,20 @@ bool same_grid(const render::SceneLook& a, const render::SceneLook& b) {
 /// Do both give the same picture, but for what is drawn over it?
 bool same_picture(const DisplayWish& a, const DisplayWish& b) {
   const render::SceneLook &one = a.look, &other = b.look;
-  return a.view.world_from_eye.matrix() == b.view.world_from_eye.matrix() && a.view.field == b.view.field &&
-         same(one.above, other.above) && same(one.below, other.below) && one.lights == other.lights &&
-         one.shadows == other.shadows && one.ground == other.ground && one.shadow_side == other.shadow_side &&
-         one.passes == other.passes && one.csg == other.csg && same_grid(one, other);
+  return is_same_view(a.view, b.view) && is_same_view(a.left, b.left) && is_same_view(a.right, b.right) &&
+         a.stereo == b.stereo && same(one.above, other.above) && same(one.below, other.below) &&
+         one.lights == other.lights && one.shadows == other.shadows && one.ground == other.ground &&
+         one.shadow_side == other.shadow_side && one.passes == other.passes && one.csg == other.csg &&
+         same_grid(one, other);
 }
 
 }  // namespace
+
+render::StereoLayout layout_of(interaction::StereoKind kind) {
+  if (kind == interaction::StereoKind::SideBySide) return render::StereoLayout::SideBySide;
+  if (kind == interaction::StereoKind::TopBottom) return render::StereoLayout::TopBottom;
+  return render::StereoLayout::Anaglyph;
+}
 
 DisplayFeed::DisplayFeed(std::size_t pointers)
     : scene_(std::make_shared<const render::RenderScene>()), recorder_(kNominalPeriod) {
@@ -97,19 +104,42 @@ base::Result<void> DisplayFeed::draw(render::SceneRenderer& renderer, const rend
   if (shown_.miniature) look.overlay.copies.push_back({scene_.read(), *shown_.miniature});
   // Tiles of a picture have its shape in common.
   const double aspect = target.width * target.window.height / (target.height * target.window.width);
-  const render::Camera through = camera(aspect);
-  // A pointer that comes near moves the lens, and depths of another lens cannot be compared.
-  if (through.clip_from_camera != lens_) is_new_ = true;
-  lens_ = through.clip_from_camera;
-  const int pass = is_new_ ? 0 : std::min(passes_, look.passes);
-  const auto drawn = renderer.draw_pass(*scene_.read(), through, look, target, pass);
+  const bool for_both = shown_.stereo.kind == interaction::StereoKind::Off;
+  const auto drawn =
+      for_both ? draw_middle(renderer, look, target, aspect) : draw_eyes(renderer, look, target, aspect);
   for (const auto& box : pointers_) box->drawn = box->newest.read();
-  passes_ = pass + 1;
   is_new_ = has_moved_ = false;
   times.finished = base::steady_nanoseconds();
   recorder_.record(times);
   frames_.store(frames_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   return drawn;
+}
+
+/// The number of the pass that is drawn now. A pointer that comes near moves the lens, and depths of another
+/// lens cannot be compared.
+int DisplayFeed::begin_pass(const render::Matrix4& lens, const render::Matrix4& other_lens, int passes) {
+  if (lens != lens_ || other_lens != other_lens_) is_new_ = true;
+  lens_ = lens;
+  other_lens_ = other_lens;
+  const int pass = is_new_ ? 0 : std::min(passes_, passes);
+  passes_ = pass + 1;
+  return pass;
+}
+
+base::Result<void> DisplayFeed::draw_middle(render::SceneRenderer& renderer, const render::SceneLook& look,
+                                            const render::SceneTarget& target, double aspect) {
+  const render::Camera through = camera(shown_.view, aspect);
+  const int pass = begin_pass(through.clip_from_camera, render::Matrix4::Zero(), look.passes);
+  return renderer.draw_pass(*scene_.read(), through, look, target, pass);
+}
+
+base::Result<void> DisplayFeed::draw_eyes(render::SceneRenderer& renderer, const render::SceneLook& look,
+                                          const render::SceneTarget& target, double aspect) {
+  const render::StereoLayout layout = layout_of(shown_.stereo.kind);
+  if (!shown_.stereo.squeezed) aspect *= render::share_of_eye(layout).x() / render::share_of_eye(layout).y();
+  const render::EyeCameras eyes{camera(shown_.left, aspect), camera(shown_.right, aspect)};
+  const int pass = begin_pass(eyes.left.clip_from_camera, eyes.right.clip_from_camera, look.passes);
+  return renderer.draw_stereo_pass(*scene_.read(), eyes, layout, look, target, pass);
 }
 
 bool DisplayFeed::is_shown(const PointerBox& box, const PointerView& pointer) const {
@@ -134,8 +164,8 @@ bool DisplayFeed::has_moved(const PointerBox& box) const {
 }
 
 /// The camera at the eye, which looks along -z.
-render::Camera DisplayFeed::camera(double aspect) const {
-  const base::Pose& world_from_eye = shown_.view.world_from_eye;
+render::Camera DisplayFeed::camera(const interaction::View& view, double aspect) const {
+  const base::Pose& world_from_eye = view.world_from_eye;
   render::Camera camera;
   camera.camera_from_world = world_from_eye.inverse();
   base::Bounds bounds = scene_.read()->bounds();
@@ -159,7 +189,8 @@ render::Camera DisplayFeed::camera(double aspect) const {
       if (!scene.contains(place)) reach(place);
     }
   }
-  camera.clip_from_camera = render::lens_for(camera.camera_from_world, bounds, shown_.view.field, aspect);
+  camera.clip_from_camera =
+      render::lens_for(camera.camera_from_world, bounds, view.field, aspect, view.shift);
   return camera;
 }
 

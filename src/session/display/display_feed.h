@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "interaction/navigation.h"
+#include "interaction/screen_view.h"
 #include "realtime/latest_value.h"
 #include "realtime/recorder.h"
 #include "render/scene/scene_renderer.h"
@@ -17,8 +18,10 @@ namespace icome::session {
 /// The main thread's wish for the display of the world.
 struct DisplayWish {
   interaction::View view = {};
-  render::SceneLook look = {};  // its passes: the number that a view at rest is refined to
-  bool pointers = true;         // tips, surface contact points and forces are shown
+  interaction::StereoSettings stereo = {};
+  interaction::View left = {}, right = {};  // of the eyes, where each gets a picture
+  render::SceneLook look = {};              // its passes: the number that a view at rest is refined to
+  bool pointers = true;                     // tips, surface contact points and forces are shown
   /// The map from the scene to a copy of it that is drawn over it, when there is one.
   std::optional<base::Affine3> miniature = {};
   /// The sign beside a hand whose force is held down, as the motors would become too warm; null: none.
@@ -33,6 +36,9 @@ struct DisplayWish {
   std::vector<base::Vector3> in_sight = {};
   double marker_size = 0.004;  // share of the distance to the eye: radius of the tip's ball
 };
+
+/// The layout of a way of stereo that is not off.
+render::StereoLayout layout_of(interaction::StereoKind kind);
 
 /// Brings the world to the eye: the display thread asks it for the things to draw, and never waits for
 /// anybody. Knows no window; any thread with an OpenGL context draws with it (a window's, an off-screen one).
@@ -74,7 +80,12 @@ class DisplayFeed {
   void note_target(const render::SceneRenderer& renderer, const render::SceneTarget& target);
   bool has_moved(const PointerBox& box) const;
   bool is_shown(const PointerBox& box, const PointerView& pointer) const;
-  render::Camera camera(double aspect) const;
+  render::Camera camera(const interaction::View& view, double aspect) const;
+  base::Result<void> draw_eyes(render::SceneRenderer& renderer, const render::SceneLook& look,
+                               const render::SceneTarget& target, double aspect);
+  base::Result<void> draw_middle(render::SceneRenderer& renderer, const render::SceneLook& look,
+                                 const render::SceneTarget& target, double aspect);
+  int begin_pass(const render::Matrix4& lens, const render::Matrix4& other_lens, int passes);
   void add_markers(render::SceneOverlay& overlay) const;
 
   realtime::LatestValue<DisplayWish> wish_;
@@ -84,12 +95,13 @@ class DisplayFeed {
   std::atomic<std::uint64_t> frames_ = 0;
 
   // The display thread's.
-  DisplayWish shown_ = {};                           // the newest wish
-  bool is_new_ = true;                               // another picture: what was refined is of no use
-  bool has_moved_ = false;                           // only the overlay of the picture is another
-  int passes_ = 0;                                   // of this picture, so far
-  render::SceneTarget target_ = {};                  // the last
-  render::Matrix4 lens_ = render::Matrix4::Zero();   // of the last frame
+  DisplayWish shown_ = {};                          // the newest wish
+  bool is_new_ = true;                              // another picture: what was refined is of no use
+  bool has_moved_ = false;                          // only the overlay of the picture is another
+  int passes_ = 0;                                  // of this picture, so far
+  render::SceneTarget target_ = {};                 // the last
+  render::Matrix4 lens_ = render::Matrix4::Zero();  // of the last frame, of the left eye where there are two
+  render::Matrix4 other_lens_ = render::Matrix4::Zero();
   const render::SceneRenderer* renderer_ = nullptr;  // the last; only compared
 };
 

@@ -1,5 +1,7 @@
 #include "session/hands/user_interaction.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,6 +24,7 @@ constexpr double kPatience = 0.25;     // s, for which a device that says nothin
 constexpr double kRecall = 0.1;        // s, in which most of a way back is done
 constexpr double kFarthestHand = 2.0;  // of the view's distance: what is further off is hardly in sight
 constexpr double kFarthestHead = 2.0;  // m
+constexpr double kComeBack = 0.5;      // s, in which the eye goes to a head that was lost
 
 /// The turn about the vertical that brings x to the picture's right: level also for views from straight
 /// above.
@@ -39,11 +42,11 @@ bool is_rigid(const Pose& pose) {
   return pose.matrix().allFinite() && pose.linear().isUnitary(1e-6) && pose.linear().determinant() > 0.0;
 }
 
-/// The pose a part of the way to that of a head of which nothing is known.
-Pose relaxed(const Pose& pose, double part) {
+/// The pose a part of the way to another one.
+Pose between(const Pose& from, const Pose& to, double part) {
   Pose result = Pose::Identity();
-  result.linear() = Quaternion(pose.linear()).slerp(part, Quaternion::Identity()).toRotationMatrix();
-  result.translation() = (1.0 - part) * pose.translation();
+  result.linear() = Quaternion(from.linear()).slerp(part, Quaternion(to.linear())).toRotationMatrix();
+  result.translation() = (1.0 - part) * from.translation() + part * to.translation();
   return result;
 }
 
@@ -95,6 +98,7 @@ void UserInteraction::right_hands(double dt) {
 
 UserInteraction::News UserInteraction::update(double dt) {
   const double step = std::isfinite(dt) ? std::clamp(dt, 0.0, kLongestStep) : 0.0;
+  time_ += step;
   News news;
   read_navigation(step, news);
   read_head(step, news);
@@ -147,16 +151,38 @@ void UserInteraction::read_head(double dt, News& news) {
   if (!head_) return;
   Pose user_from_head = Pose::Identity();
   const DeviceStatus status = head_->read(user_from_head);
+  const bool was_lost = head_presence_.asked && !head_presence_.there;
+  const std::size_t told = news.devices.size();
   note(head_->name(), head_presence_, status, dt, news);
+  if (status == DeviceStatus::Lost && news.devices.size() > told)
+    if (const std::string why = head_->why_lost(); !why.empty())
+      news.devices.back().text = fmt::format("{} is gone. {}", head_->name(), why);
+  const double part = 1.0 - std::exp(-dt / kRecall);
   if (status == DeviceStatus::Ok && is_rigid(user_from_head)) {
     auto at = user_from_head.translation();
     at = at.cwiseMax(-kFarthestHead).cwiseMin(kFarthestHead).eval();
-    const Pose moved = head_motion_.moved(user_from_head);
-    rest_from_head_ = head_is_transferred_ ? moved : head_motion_.newest_from_rest();
+    head_is_back_for_ = was_lost ? kComeBack : std::max(0.0, head_is_back_for_ - dt);
+    const Pose moved = head_motion_.moved(user_from_head, time_);
+    const bool transferred = head_is_transferred_ && !fish_tank_;
+    const Pose now = transferred ? moved : head_motion_.steady_from_rest();
+    rest_from_head_ = head_is_back_for_ > 0.0 ? between(rest_from_head_, now, part) : now;
   } else if (status == DeviceStatus::Lost) {
     head_motion_.forget_samples();
-    rest_from_head_ = relaxed(rest_from_head_, 1.0 - std::exp(-dt / kRecall));
+    rest_from_head_ = between(rest_from_head_, Pose::Identity(), part);
   }
+}
+
+void UserInteraction::set_fish_tank(const std::optional<interaction::FishTank>& screen) {
+  if (screen == fish_tank_) return;
+  if (!fish_tank_) field_before_ = view_.field;
+  fish_tank_ = screen;
+  view_ = interaction::with_field(view_, fish_tank_ ? interaction::field_of(*fish_tank_) : field_before_);
+  place();
+}
+
+void UserInteraction::set_eye_distance(double metres) {
+  eye_distance_ = metres;
+  place();
 }
 
 void UserInteraction::set_head_transfer(const std::optional<interaction::HeadTransfer>& transfer) {
@@ -196,16 +222,34 @@ void UserInteraction::move_hands(double dt) {
 }
 
 void UserInteraction::place() {
+  if (fish_tank_ && view_.field != interaction::field_of(*fish_tank_))
+    view_ = interaction::with_field(view_, interaction::field_of(*fish_tank_));
   const Pose heading = heading_of(view_);
   stage_from_device_ = heading * Eigen::AngleAxisd(hand_turn_, Vector3::UnitY()) * hand_tilt_;
   stage_from_device_.translation() =
       interaction::looked_at(view_) + view_.distance * (heading.linear() * hand_offset_);
-  drawn_ = view_;
-  if (!head_) return;
-  Pose eye_from_head = follows_head_ ? rest_from_head_ : Pose::Identity();
-  eye_from_head.translation() *= view_.distance / kScreenDistance;
-  drawn_.world_from_eye = view_.world_from_eye * eye_from_head;
-  drawn_ = interaction::usable(drawn_);
+  place_eyes();
+}
+
+/// Places the eyes by where the head is: before the screen, or, where the screen goes along with the head, in
+/// the head.
+void UserInteraction::place_eyes() {
+  const double scale = view_.distance / (fish_tank_ ? fish_tank_->distance : kScreenDistance);
+  Pose eye_from_head = head_ && follows_head_ ? rest_from_head_ : Pose::Identity();
+  eye_from_head.translation() *= scale;
+  View screen = view_;
+  if (!fish_tank_) {
+    screen.world_from_eye = view_.world_from_eye * eye_from_head;
+    screen = interaction::usable(screen);
+    eye_from_head = Pose::Identity();
+  }
+  for (std::size_t i = 0; i < drawn_.size(); ++i) {
+    const double aside = i == std::size_t(interaction::Eye::Left)    ? -0.5
+                         : i == std::size_t(interaction::Eye::Right) ? 0.5
+                                                                     : 0.0;
+    const Vector3 eye = eye_from_head * Vector3(aside * eye_distance_ * scale, 0.0, 0.0);
+    drawn_[i] = eye.isZero(0.0) ? screen : interaction::seen_from(screen, eye);
+  }
 }
 
 }  // namespace icome::session

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 #include "devices/navigation_device.h"
 #include "interaction/head/head_motion.h"
 #include "interaction/navigation.h"
+#include "interaction/screen_view.h"
 
 namespace icome::session {
 
@@ -37,9 +39,11 @@ class UserInteraction {
 
   /// The user's view, without the head; always usable.
   const interaction::View& view() const { return view_; }
-  /// The view to be drawn, as the head sees it. A head that moves as far as its distance to a screen
-  /// (`kScreenDistance`) moves the eye by the view's distance.
-  const interaction::View& drawn_view() const { return drawn_; }
+  /// The view to be drawn, as the head sees it, for the point between the eyes or for one of them. A head
+  /// that moves as far as its distance to a screen (`kScreenDistance`) moves the eye by the view's distance.
+  const interaction::View& drawn_view(interaction::Eye eye = interaction::Eye::Middle) const {
+    return drawn_[std::size_t(eye)];
+  }
   static constexpr double kScreenDistance = 0.6;  // m
 
   bool has_head() const { return head_ != nullptr; }
@@ -49,6 +53,16 @@ class UserInteraction {
   void follow_head(bool follows) { follows_head_ = follows; }
   /// From now on the eye is at the view's place where the head is now.
   void recentre_head();
+  /// How the head's poses are steadied and predicted.
+  void set_head_filter(const interaction::HeadFilterSettings& filter) { head_motion_.set_filter(filter); }
+
+  /// Makes the screen a window into the world: the eye is where the head is before it, without the transfer
+  /// function, and the picture's field is the one that the screen has for an eye at rest. Nothing: no longer.
+  void set_fish_tank(const std::optional<interaction::FishTank>& screen);
+  const std::optional<interaction::FishTank>& fish_tank() const { return fish_tank_; }
+  /// The distance between the eyes, m; the drawn views of the eyes lie so far apart. The plane through the
+  /// point looked at has no parallax.
+  void set_eye_distance(double metres);
 
   /// Sets the view at once; a flight ends.
   void set_view(const interaction::View& view);
@@ -84,12 +98,14 @@ class UserInteraction {
   void move_hands(double dt);
   void right_hands(double dt);
   void place();
+  void place_eyes();
 
   std::unique_ptr<devices::NavigationDevice> navigation_;  // may be null
   std::unique_ptr<devices::HeadDevice> head_;              // may be null
   Presence navigation_presence_, head_presence_;
   devices::NavigationState steering_;  // no push, no turn, while there is no device
-  interaction::View view_, drawn_;
+  interaction::View view_;
+  std::array<interaction::View, 3> drawn_;  // by Eye
   std::optional<interaction::ViewFlight> flight_;
   double flown_for_ = 0.0;  // s
   interaction::NavigationMode mode_ = interaction::NavigationMode::Camera;
@@ -104,6 +120,11 @@ class UserInteraction {
   bool head_is_transferred_ = true;
   bool follows_head_ = true;
   base::Pose rest_from_head_ = base::Pose::Identity();  // as the eye goes along with it
+  double time_ = 0.0;                                   // s, of all updates
+  double head_is_back_for_ = 0.0;                       // s, in which the eye goes back to a head found again
+  std::optional<interaction::FishTank> fish_tank_;
+  double field_before_ = 0.0;                                         // rad, of the view before it was one
+  double eye_distance_ = interaction::StereoSettings().eye_distance;  // m
   base::Pose stage_from_device_ = base::Pose::Identity();
 };
 

@@ -14,7 +14,7 @@ constexpr std::array kCapabilities = {
     Capability{"force-feedback", "a device that gives forces, or the simulated hand", true, true},
     Capability{"head-tracking", "a device that tells where the head is", true, false},
     Capability{"haptic-menu", "menus in the scene that are clicked or pushed", true, true},
-    Capability{"stereo", "a picture for each eye", false, false},
+    Capability{"stereo", "a picture for each eye", true, false},
     Capability{"speech", "commands that are spoken", false, false},
 };
 

@@ -33,7 +33,8 @@ struct Level {
   // The changes that a level of an independent variable makes in a trial.
   std::optional<Choosing> choosing = {};
   std::optional<bool> forces = {};
-  std::optional<bool> head = {};  // does the eye follow the head?
+  std::optional<bool> head = {};    // does the eye follow the head?
+  std::optional<bool> stereo = {};  // does each eye get a picture?
   Place place = {};
 };
 
@@ -138,7 +139,9 @@ struct Task {
   std::vector<std::string> shown;  // of things whose names differ only in the value, this one alone is there
   Choosing choosing = Choosing::Touch;
   bool forces = true;
-  bool head = true;                                    // the eye follows the head, where that is tracked
+  bool head = true;  // the eye follows the head, where that is tracked
+  std::optional<bool> stereo =
+      {};  // each eye gets a picture; none: where stereo is needed, else as it was chosen
   base::Vector3 start = base::Vector3(0.0, 0.0, 0.1);  // m, stage frame: the start of the pointer
   // Where one of these is not given, that of the element counts or, of objects, the default of TrialGoal.
   std::optional<double> near = {};   // m, the longest distance from the tip for a click

@@ -46,6 +46,7 @@ std::optional<Task> read_task(KeyReader& keys, const std::vector<std::string>& l
   task.choosing = read_choosing(part, task.choosing);
   task.forces = part.flag("forces", task.forces);
   task.head = part.flag("head", task.head);
+  if (part.has("stereo")) task.stereo = part.flag("stereo", true);
   task.start = read_start(part).value_or(task.start);
   task.near = read_distance(part, "near");
   task.depth = read_distance(part, "depth");

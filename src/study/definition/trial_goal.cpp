@@ -39,6 +39,22 @@ std::vector<world::ObjectId> shaped_objects(const world::World& world) {
   return shaped;
 }
 
+bool needs_stereo(const std::vector<std::string>& needs) {
+  return std::ranges::find(needs, "stereo") != needs.end();
+}
+
+/// Stereo in trials whose levels say nothing of it: on where all of the study, or the scene, needs it, and
+/// off where only some levels have it.
+std::optional<bool> usual_stereo(const Study& study, const TrialScene* scene) {
+  if (study.task->stereo) return study.task->stereo;
+  if (needs_stereo(study.needs) || (scene != nullptr && needs_stereo(scene->needs))) return true;
+  const auto speaks_of_it = [](const Level& level) { return level.stereo || needs_stereo(level.needs); };
+  for (const IndependentVariable& factor : study.independent)
+    if (std::ranges::any_of(factor.levels, speaks_of_it)) return false;
+  const auto is_needed = [](const TrialScene& it) { return needs_stereo(it.needs); };
+  return std::ranges::any_of(study.trials.scenes, is_needed) ? std::optional(false) : std::nullopt;
+}
+
 /// Applies the changes that the levels of a crossing make.
 void apply_levels(const Study& study, bool between, std::size_t crossing, TrialGoal& goal) {
   const auto factors = factors_of(study, between);
@@ -48,6 +64,8 @@ void apply_levels(const Study& study, bool between, std::size_t crossing, TrialG
     goal.choosing = level.choosing.value_or(goal.choosing);
     goal.forces = level.forces.value_or(goal.forces);
     goal.head = level.head.value_or(goal.head);
+    if (needs_stereo(level.needs)) goal.stereo = true;
+    if (level.stereo) goal.stereo = level.stereo;
   }
 }
 
@@ -204,6 +222,7 @@ base::Result<TrialGoal> trial_goal(const Study& study, const Participant& partic
   goal.choosing = task.choosing;
   goal.forces = task.forces;
   goal.head = task.head;
+  goal.stereo = usual_stereo(study, scene);
   goal.start = scene != nullptr && scene->start ? *scene->start : task.start;
   goal.near = task.near.value_or(goal.near);
   goal.depth = task.depth.value_or(goal.depth);

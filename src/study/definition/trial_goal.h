@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct TrialGoal {
   Choosing choosing = Choosing::Touch;
   bool forces = true;
   bool head = true;
+  std::optional<bool> stereo;                   // each eye gets a picture; none: as it was chosen
   base::Vector3 start = base::Vector3::Zero();  // m, stage frame
   std::optional<TrialElement> element = {};
   double near = 0.01;      // m; see Task

@@ -65,6 +65,7 @@ std::vector<Level> read_factor_levels(KeyReader& keys) {
     if (level_keys.has("select")) level.choosing = read_choosing(level_keys, Choosing::Touch);
     if (level_keys.has("forces")) level.forces = level_keys.flag("forces", true);
     if (level_keys.has("head")) level.head = level_keys.flag("head", true);
+    if (level_keys.has("stereo")) level.stereo = level_keys.flag("stereo", true);
   });
 }
 

@@ -92,6 +92,7 @@ void TrialStage::stop() {
   parts_->leave();
   parts_->bring_back();
   parts_->session.view().follow_head(true);
+  parts_->session.view().ask_for_stereo(std::nullopt);
   parts_->state = State::Idle;
 }
 
@@ -170,6 +171,7 @@ void TrialStage::Parts::begin_seeking() {
   session.view().set(interaction::fitted(session.view().now(), all, kTowardEye, base::Vector3::UnitY(),
                                          session.view().aspect()));
   session.view().follow_head(goal->head);
+  session.view().ask_for_stereo(goal->stereo);
   if (const auto opened = open_element(*goal); !opened) return fail(opened.error().message);
   watch.emplace(std::move(*goal));
   session.hands().take_trace();  // the rest of another trial

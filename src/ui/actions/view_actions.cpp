@@ -1,5 +1,6 @@
 #include "ui/actions/view_actions.h"
 
+#include <QInputDialog>
 #include <algorithm>
 #include <utility>
 
@@ -65,6 +66,7 @@ void ViewActions::fill(QMenu& menu) {
                  [this] { session_.view().recentre_head(); });
   recentre->setToolTip("From now on you look straight ahead where your head is now");
   recentre->setEnabled(session_.view().has_head());
+  fill_stereo(menu);
   menu.addSeparator();
   fill_themes(menu);
 }
@@ -158,6 +160,54 @@ void ViewActions::fill_modes(QMenu& menu) {
   hand_->setToolTip("Hand mode: moving the 3D mouse moves the hand, and the eye stays");
 }
 
+void ViewActions::fill_stereo(QMenu& menu) {
+  using interaction::StereoKind;
+  fish_tank_ = add_action(menu, "view.fish_tank", "Screen as a &Window (Fish Tank)", {},
+                          [this] { session_.view().set_fish_tank(fish_tank_->isChecked()); });
+  fish_tank_->setCheckable(true);
+  fish_tank_->setToolTip("The scene stands behind and before the screen, seen from where your head is");
+  QMenu* const ways = menu.addMenu("Stere&o");
+  ways->setObjectName("view.stereo");
+  stereo_ = new QActionGroup(ways);
+  const auto add = [&](const char* name, const char* text, StereoKind kind) {
+    QAction* const action = add_action(*ways, name, text, {}, [this, kind] {
+      auto stereo = session_.view().stereo();
+      stereo.kind = kind;
+      session_.view().set_stereo(stereo);
+    });
+    action->setCheckable(true);
+    action->setData(int(kind));
+    stereo_->addAction(action);
+  };
+  add("view.stereo_off", "&Off", StereoKind::Off);
+  add("view.stereo_anaglyph", "&Anaglyph (Red and Cyan Glasses)", StereoKind::Anaglyph);
+  add("view.stereo_side_by_side", "&Side by Side", StereoKind::SideBySide);
+  add("view.stereo_top_bottom", "&Left Above Right", StereoKind::TopBottom);
+  ways->addSeparator();
+  squeezed_ = add_action(*ways, "view.stereo_squeezed", "S&queezed, for 3D Displays", {}, [this] {
+    auto stereo = session_.view().stereo();
+    stereo.squeezed = squeezed_->isChecked();
+    session_.view().set_stereo(stereo);
+  });
+  squeezed_->setCheckable(true);
+  squeezed_->setToolTip("Each half of the window holds the whole picture: the display stretches it");
+  add_action(*ways, "view.eye_distance", "&Eye Distance...", {}, [this, ways] { ask_eye_distance(ways); });
+}
+
+void ViewActions::ask_eye_distance(QWidget* parent) {
+  while (parent->parentWidget()) parent = parent->parentWidget();  // a menu is a window of its own
+  constexpr double kMillimetres = 1000.0;
+  bool taken = false;
+  auto stereo = session_.view().stereo();
+  const double distance = QInputDialog::getDouble(
+      parent, "Eye Distance",
+      "Between the middles of your pupils, in mm:", kMillimetres * stereo.eye_distance, 0.0,
+      kMillimetres * interaction::StereoSettings::kMostEyeDistance, 1, &taken);
+  if (!taken) return;
+  stereo.eye_distance = distance / kMillimetres;
+  session_.view().set_stereo(stereo);
+}
+
 void ViewActions::fill_themes(QMenu& menu) {
   QMenu* themes = menu.addMenu("&Theme");
   themes_ = new QActionGroup(themes);
@@ -179,6 +229,11 @@ void ViewActions::show_theme(Theme theme) {
 void ViewActions::refresh() {
   const bool camera = session_.view().navigation_mode() == NavigationMode::Camera;
   if (camera_->isChecked() != camera) (camera ? camera_ : hand_)->setChecked(true);
+  const interaction::StereoSettings stereo = session_.view().stereo();
+  for (QAction* const action : stereo_->actions())
+    if (action->data().toInt() == int(stereo.kind) && !action->isChecked()) action->setChecked(true);
+  squeezed_->setChecked(stereo.squeezed);
+  fish_tank_->setChecked(session_.view().is_fish_tank());
   if (play_->isChecked() != session_.stage().playing()) play_->setChecked(session_.stage().playing());
 }
 

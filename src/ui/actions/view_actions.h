@@ -41,6 +41,8 @@ class ViewActions {
   void fill_modes(QMenu& menu);
   void fill_themes(QMenu& menu);
   void fill_motions(QMenu& menu);
+  void fill_stereo(QMenu& menu);
+  void ask_eye_distance(QWidget* parent);
   QAction* add_switch(QMenu& menu, const char* name, const QString& text, const QKeySequence& keys);
 
   session::Session& session_;
@@ -48,6 +50,8 @@ class ViewActions {
   QSettings& settings_;
   QAction *home_ = nullptr, *zoom_ = nullptr, *grid_ = nullptr, *shadows_ = nullptr;
   QAction *camera_ = nullptr, *hand_ = nullptr, *play_ = nullptr;
+  QAction *fish_tank_ = nullptr, *squeezed_ = nullptr;
+  QActionGroup* stereo_ = nullptr;
   QActionGroup* themes_ = nullptr;
   std::function<void(Theme)> theme_changed_ = [](Theme) {};
   std::function<void()> look_changed_ = [] {};

@@ -94,14 +94,15 @@ void StudyScene::show_stage(const study::TrialStage& stage) {
 /// Moves the mouse to where `place` is seen; without effect where the display does not allow it.
 void StudyScene::put_mouse(const base::Vector3& place) {
   SceneWindow& window = view_->window_of_scene();
-  const QSizeF size(std::max(1, window.width()), std::max(1, window.height()));
+  const QSizeF scene(std::max(1, window.width()), std::max(1, window.height()));
+  const QSizeF size = eye_size(scene, tools_.stereo());
   const base::Vector3 seen = session_.view().now().world_from_eye.inverse() * place;
   const Eigen::Vector2d half = interaction::half_picture(session_.view().now(), tools_.aspect());
   if (seen.z() >= 0.0) return;  // behind the eye
   const Eigen::Vector2d at = (seen.head<2>() / -seen.z()).cwiseQuotient(half);
   const QPointF pixel(0.5 * (1.0 + at.x()) * size.width(), 0.5 * (1.0 - at.y()) * size.height());
   if (!QRectF(QPointF(), size).contains(pixel)) return;
-  QCursor::setPos(window.mapToGlobal(pixel.toPoint()));
+  QCursor::setPos(window.mapToGlobal(in_scene(pixel, scene, tools_.stereo()).toPoint()));
 }
 
 void StudyScene::move_hand() {

@@ -14,7 +14,7 @@ using world::ObjectId;
 
 void MoveTool::press(const SceneInput& input) {
   finish();
-  press_ = Press{input, session_.stage().pick_seen(input.ray(session_.view().now()))};
+  press_ = Press{input, session_.stage().pick_seen(input.ray(session_.view()))};
 }
 
 void MoveTool::follow(const SceneInput& input) {
@@ -92,7 +92,7 @@ void MoveTool::go_on() {
 
 void MoveTool::step() {
   if (!due_) return;
-  const auto offset = drag_->plane.moved(due_->ray(session_.view().now()));
+  const auto offset = drag_->plane.moved(due_->ray(session_.view()));
   const bool snaps = !(due_->modifiers & (Qt::ShiftModifier | Qt::AltModifier));
   due_.reset();
   if (!offset || !offset->allFinite() || drag_->objects.empty()) return;

@@ -12,7 +12,7 @@ using base::Vector3;
 
 bool PartTool::press(const SceneInput& input) {
   finish();
-  const auto picked = session_.stage().pick_part(input.ray(session_.view().now()));
+  const auto picked = session_.stage().pick_part(input.ray(session_.view()));
   if (picked) press_ = Press{input, *picked};
   return picked.has_value();
 }
@@ -43,8 +43,7 @@ void PartTool::aim_drag() {
   drag_->plane.keep_to(along);
   if (!(press_->input.modifiers & Qt::ControlModifier)) return;
   drag_->turn_axis = along.value_or(drag_->toward_eye);
-  drag_->turn.emplace(drag_->pull.drag().centre(), drag_->turn_axis,
-                      press_->input.ray(session_.view().now()));
+  drag_->turn.emplace(drag_->pull.drag().centre(), drag_->turn_axis, press_->input.ray(session_.view()));
 }
 
 void PartTool::keep_to(std::optional<int> axis) {
@@ -66,7 +65,7 @@ void PartTool::tick() {
 
 /// The part's motion in the world, from where it was; nothing where the mouse gives none.
 std::optional<Affine3> PartTool::motion(const SceneInput& input) const {
-  const interaction::Ray ray = input.ray(session_.view().now());
+  const interaction::Ray ray = input.ray(session_.view());
   Affine3 motion = Affine3::Identity();
   if (drag_->turn) {
     const auto angle = drag_->turn->turned(ray);
@@ -98,7 +97,7 @@ bool PartTool::hover(const std::optional<SceneInput>& input) {
   hovered_.reset();
   // A part that a hand drags stays the marked one until the hand lets go.
   if (const auto& marked = session_.stage().marked_part(); marked && marked->motion) return false;
-  const auto picked = input ? session_.stage().pick_part(input->ray(session_.view().now())) : std::nullopt;
+  const auto picked = input ? session_.stage().pick_part(input->ray(session_.view())) : std::nullopt;
   if (picked) hovered_ = picked->part;
   session_.stage().mark_part(hovered_ ? std::optional(session::MarkedPart{.part = *hovered_}) : std::nullopt);
   return hovered_.has_value();

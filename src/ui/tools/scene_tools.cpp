@@ -91,7 +91,8 @@ void SceneTools::release(const SceneInput& input) {
   if (view_drag_.active() && input.button == view_button_) {
     view_drag_.follow(input);
     view_drag_.end();
-    if (view_button_ == Qt::RightButton && !view_drag_.moved()) listener_.asked(input.at);
+    if (view_button_ == Qt::RightButton && !view_drag_.moved())
+      listener_.asked(input.in_window.value_or(input.at));
   } else if (input.button == Qt::LeftButton) {
     if (const auto click = part_tool_.release(input)) move_tool_.press(*click);
     move_tool_.release(input);
@@ -101,13 +102,13 @@ void SceneTools::release(const SceneInput& input) {
 }
 
 void SceneTools::double_click(const SceneInput& input) {
-  const bool is_on_menu = session_.menu().met_by(input.ray(session_.view().now())).has_value();
+  const bool is_on_menu = session_.menu().met_by(input.ray(session_.view())).has_value();
   if (input.button != Qt::LeftButton || tool_ == Tool::Touch || is_on_menu) {
     press(input);
     return;
   }
   finish();
-  if (const auto picked = session_.stage().pick_seen(input.ray(session_.view().now())))
+  if (const auto picked = session_.stage().pick_seen(input.ray(session_.view())))
     zoom_to(session_, picked->object, input.aspect());
 }
 
@@ -130,7 +131,7 @@ bool SceneTools::pen(const SceneInput& input, double pressure) {
 
 /// Is the mouse on the haptic menu, and not a hand's? The menu follows it then.
 bool SceneTools::point_at_menu(const SceneInput& input) {
-  return tool_ != Tool::Touch && session_.menu().point(input.ray(session_.view().now()), presses_menu_);
+  return tool_ != Tool::Touch && session_.menu().point(input.ray(session_.view()), presses_menu_);
 }
 
 /// How far from the eye a menu at that place of the picture is before all that is around there, m.
@@ -144,7 +145,7 @@ double SceneTools::distance_before_things(const SceneInput& at) const {
     for (int y = -kSteps; y <= kSteps; ++y) {
       SceneInput beside = at;
       beside.at += kAround / kSteps * at.shorter_side() * QPointF(x, y);
-      if (const auto picked = session_.stage().pick(beside.ray(view)))
+      if (const auto picked = session_.stage().pick(beside.ray(session_.view())))
         distance = std::min(distance, kBefore * picked->place.distance);
     }
   return distance;
@@ -154,7 +155,7 @@ double SceneTools::distance_before_things(const SceneInput& at) const {
 void SceneTools::ask_for_menu() {
   session::MenuSpot spot;
   if (mouse_) {
-    spot.way = mouse_->ray(session_.view().now());
+    spot.way = mouse_->ray(session_.view());
     spot.distance = distance_before_things(*mouse_);
   } else if (session_.hands().pointers() > 0 && session_.hands().mouse() != std::size_t(0)) {
     spot.hand = 0;
@@ -338,23 +339,25 @@ void SceneTools::leave() {
 }
 
 void SceneTools::resize(const QSizeF& size) {
-  if (size.width() > 0.0 && size.height() > 0.0) size_ = size;
+  if (size.width() > 0.0 && size.height() > 0.0) scene_size_ = size;
+  size_ = eye_size(scene_size_, session_.view().stereo());
 }
 
 void SceneTools::look_for_hovered() {
   hovered_.reset();
   const bool looks = mouse_ && !view_drag_.active() && !busy() && !presses_menu_ &&
-                     !session_.menu().met_by(mouse_->ray(session_.view().now()));
+                     !session_.menu().met_by(mouse_->ray(session_.view()));
   const bool sees_parts = looks && tool_ == Tool::Select;
   if (part_tool_.hover(sees_parts ? mouse_ : std::nullopt) || !looks) return;
   if (tool_ == Tool::Touch) {
     hovered_ = session_.hands().touched(session_.hands().mouse().value_or(0));
-  } else if (const auto picked = session_.stage().pick_seen(mouse_->ray(session_.view().now()))) {
+  } else if (const auto picked = session_.stage().pick_seen(mouse_->ray(session_.view()))) {
     hovered_ = picked->object;
   }
 }
 
 void SceneTools::tick() {
+  resize(scene_size_);  // the picture of an eye may have another size now
   if (!stays_) notice_menu_buttons();
   move_tool_.tick();
   part_tool_.tick();
@@ -364,7 +367,7 @@ void SceneTools::tick() {
 }
 
 std::optional<interaction::Ray> SceneTools::mouse_way() const {
-  return mouse_ ? std::optional(mouse_->ray(session_.view().now())) : std::nullopt;
+  return mouse_ ? std::optional(mouse_->ray(session_.view())) : std::nullopt;
 }
 
 std::string SceneTools::drag_words() const {

@@ -27,7 +27,7 @@ class SceneTools {
     std::function<void(Tool)> chosen = [](Tool) {};
     std::function<void(const std::string&)> refused = [](const std::string&) {
     };                                                    // why something was not done
-    std::function<void(QPointF)> asked = [](QPointF) {};  // a right click, for the menu there
+    std::function<void(QPointF)> asked = [](QPointF) {};  // a right click, for the menu there in the window
     /// The haptic menu is asked for, or to go.
     std::function<void(const session::MenuSpot&)> menu = [](const session::MenuSpot&) {};
   };
@@ -75,7 +75,9 @@ class SceneTools {
   std::string drag_words() const;
   TouchTool& touch_tool() { return touch_tool_; }
   bool turning() const { return view_drag_.active(); }
+  /// Width over height of the picture of an eye.
   double aspect() const { return size_.width() / size_.height(); }
+  interaction::StereoSettings stereo() const { return session_.view().stereo(); }
 
  private:
   bool escape();
@@ -103,7 +105,8 @@ class SceneTools {
   bool stays_ = false;                                                      // the tool stays chosen
   bool presses_menu_ = false;                                               // the mouse does
   std::array<bool, session::HapticLoop::kMostPointers> menu_buttons_ = {};  // are they down?
-  QSizeF size_ = {1.0, 1.0};
+  QSizeF scene_size_ = {1.0, 1.0};
+  QSizeF size_ = {1.0, 1.0};  // of the picture of an eye
   std::optional<SceneInput> mouse_ = {};
   std::optional<world::ObjectId> hovered_ = {};
 };

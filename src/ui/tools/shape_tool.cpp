@@ -40,7 +40,7 @@ std::optional<interaction::ShapingHandle> ShapeTool::find(const SceneInput& inpu
   if (!session_.hands().shaping()) return std::nullopt;
   const interaction::View& view = session_.view().now();
   const double spread = kPointAtPixels * 2.0 * std::tan(0.5 * view.field) / input.shorter_side();
-  const interaction::Ray ray = input.ray(view);
+  const interaction::Ray ray = input.ray(session_.view());
   auto probe = interaction::probe_along(ray, spread);
   std::vector<world::ObjectId> objects;
   if (settings_.target != interaction::ShapingTarget::Lattice) {
@@ -91,7 +91,7 @@ void ShapeTool::select() const {
   const bool toggles = press_->modifiers & Qt::ControlModifier, adds = press_->modifiers & Qt::ShiftModifier;
   std::vector<world::ObjectId> chosen;
   if (toggles || adds) chosen = session_.selection();
-  if (const auto picked = session_.stage().pick(press_->ray(session_.view().now()))) {
+  if (const auto picked = session_.stage().pick(press_->ray(session_.view()))) {
     const auto found = std::find(chosen.begin(), chosen.end(), picked->object);
     if (found == chosen.end()) {
       chosen.push_back(picked->object);
@@ -118,7 +118,7 @@ void ShapeTool::tick() {
 
 void ShapeTool::step() {
   if (!mouse_) return;
-  const auto offset = drag_->plane.moved(mouse_->ray(session_.view().now()));
+  const auto offset = drag_->plane.moved(mouse_->ray(session_.view()));
   if (!offset || !offset->allFinite()) return;
   const auto done = drag_->pull.to(session_, *offset);
   if (done) return;

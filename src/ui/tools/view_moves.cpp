@@ -48,7 +48,7 @@ void ViewDrag::follow(const SceneInput& input) {
 void zoom_at(session::Session& session, const SceneInput& input, double notches) {
   constexpr double kNotch = 0.85;
   const View& view = session.view().now();
-  const interaction::Ray ray = input.ray(view);
+  const interaction::Ray ray = input.ray(session.view());
   const auto picked = session.stage().pick(ray);
   const Vector3 towards = picked ? picked->place.point : Vector3(ray.origin + view.distance * ray.direction);
   session.view().set(interaction::zoomed(view, std::pow(kNotch, std::clamp(notches, -20.0, 20.0)), towards));

@@ -268,8 +268,8 @@ void MainWindow::show_count() {
 }
 
 void MainWindow::show_scene_menu(QPointF at) {
-  const SceneInput input{.at = at, .size = scene_->size()};
-  if (const auto picked = session_.stage().pick_seen(input.ray(session_.view().now()))) {
+  const SceneInput input = in_eye({.at = at, .size = scene_->size()}, tools_.stereo());
+  if (const auto picked = session_.stage().pick_seen(input.ray(session_.view()))) {
     const auto& selected = session_.selection();
     if (std::find(selected.begin(), selected.end(), picked->object) == selected.end())
       session_.select({picked->object});

@@ -453,7 +453,7 @@ bool MainWindow::offer_drop(QDropEvent& drop, bool over_scene) {
     if (dropped) files_.open(file);
     return true;
   }
-  const SceneInput input{.at = drop.position(), .size = scene_->size()};
+  const SceneInput input = in_eye({.at = drop.position(), .size = scene_->size()}, tools_.stereo());
   if (!dropped) {
     if (over_scene) tools_.move(input);  // names the object that it would fall on
   } else if (over_scene) {
@@ -465,7 +465,7 @@ bool MainWindow::offer_drop(QDropEvent& drop, bool over_scene) {
 }
 
 void MainWindow::drop_picture(const std::filesystem::path& file, const SceneInput& input) {
-  const auto picked = session_.stage().pick_seen(input.ray(session_.view().now()));
+  const auto picked = session_.stage().pick_seen(input.ray(session_.view()));
   if (!picked)
     return tell_error("There is no object under the picture: drop it on the one that it is to lie on");
   pictures_.put(file, {picked->object});

@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QLabel>
 #include <QPushButton>
+#include <QScreen>
 #include <QStackedLayout>
 #include <QVBoxLayout>
 
@@ -18,6 +19,7 @@ constexpr int kReasonWidth = 90 * kGrid;
 
 SceneView::SceneView(session::Session& session, SceneTools& tools, QWidget* parent)
     : QWidget(parent),
+      session_(session),
       tools_(tools),
       scene_(new SceneWindow(tools, session.view().display())),
       container_(createWindowContainer(scene_, this)),
@@ -61,11 +63,25 @@ void SceneView::make_reason() {
 
 void SceneView::tick() {
   show_cursor();
+  tell_screen();
   const auto why = scene_->trouble();
   if (!why) return;
   reason_->setText(QString::fromStdString(*why) + "\n\nEverything else works meanwhile: nothing is lost.");
   reason_->setFixedHeight(reason_->heightForWidth(kReasonWidth));
   stack_->setCurrentIndex(1);
+}
+
+/// Tells the session how large the picture of an eye is on the display, for the view through a window.
+void SceneView::tell_screen() {
+  const QScreen* const screen = scene_->screen();
+  if (!screen || screen->size().isEmpty()) return;
+  constexpr double kMillimetre = 0.001;
+  base::Vector2 display(kMillimetre * screen->physicalSize().width(),
+                        kMillimetre * screen->physicalSize().height());
+  display = session_.view().display_size().value_or(display);
+  const QSizeF picture = eye_size(scene_->size(), tools_.stereo());
+  session_.view().set_screen({display.x() * picture.width() / screen->size().width(),
+                              display.y() * picture.height() / screen->size().height()});
 }
 
 void SceneView::show_cursor() {

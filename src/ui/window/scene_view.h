@@ -31,7 +31,9 @@ class SceneView final : public QWidget {
   void make_reason();
   void show_cursor();
   void draw_sign();
+  void tell_screen();
 
+  session::Session& session_;
   SceneTools& tools_;
   SceneWindow* scene_;  // owned by the container
   QWidget* container_;

@@ -95,11 +95,16 @@ void SceneWindow::resizeEvent(QResizeEvent*) {
   if (display_) show_or_hide();
 }
 
-SceneInput SceneWindow::input(const QSinglePointEvent& event) const {
-  return {.at = event.position(),
-          .size = QSizeF(std::max(1, width()), std::max(1, height())),
-          .button = event.button(),
-          .modifiers = event.modifiers()};
+SceneInput SceneWindow::input(const QSinglePointEvent& event) {
+  const SceneInput whole{.at = event.position(),
+                         .size = QSizeF(std::max(1, width()), std::max(1, height())),
+                         .button = event.button(),
+                         .modifiers = event.modifiers()};
+  const bool released = event.button() != Qt::NoButton && !event.buttons().testFlag(event.button());
+  if (event.buttons() == Qt::NoButton && !released) pressed_in_.reset();
+  const SceneInput input = in_eye(whole, tools_.stereo(), pressed_in_);
+  pressed_in_ = event.buttons() == Qt::NoButton ? std::nullopt : std::optional(input.eye);
+  return input;
 }
 
 void SceneWindow::mousePressEvent(QMouseEvent* event) { tools_.press(input(*event)); }

@@ -43,14 +43,15 @@ class SceneWindow final : public QWindow {
   void focusOutEvent(QFocusEvent* event) override;
 
  private:
-  SceneInput input(const QSinglePointEvent& event) const;
+  SceneInput input(const QSinglePointEvent& event);
   void show_or_hide();
 
   SceneTools& tools_;
   session::DisplayFeed& feed_;
   std::unique_ptr<DisplayThread> display_ = nullptr;  // null: not seen yet, or it cannot be
   std::optional<std::string> trouble_ = {};
-  bool refused_ = false;  // it does not try again by itself
+  bool refused_ = false;                             // it does not try again by itself
+  std::optional<interaction::Eye> pressed_in_ = {};  // its picture has the mouse while a button is held
   std::function<bool(QDropEvent&)> offered_ = [](QDropEvent&) { return false; };
 };
 

@@ -91,14 +91,16 @@ TEST(MeanRotation, HasTheLeastSumOfSquaredDistances) {
 TEST(HeadMotion, MovesTheViewByTheMeanOfFiveSamplesFromRest) {
   HeadMotion motion;
   const Pose rest = Eigen::Translation3d(1.0, 2.0, 3.0) * Eigen::AngleAxisd(0.7, Vector3::UnitY());
-  EXPECT_TRUE(motion.moved(rest).isApprox(Pose::Identity()));
+  EXPECT_TRUE(motion.moved(rest, 0.0).isApprox(Pose::Identity()));
   // Steps of 1 cm to the right of the head at rest: the mean of five is two steps behind.
   Pose view = Pose::Identity();
-  for (int i = 1; i <= 20; ++i) view = motion.moved(rest * Eigen::Translation3d(0.01 * i, 0.0, 0.0));
+  for (int i = 1; i <= 20; ++i)
+    view = motion.moved(rest * Eigen::Translation3d(0.01 * i, 0.0, 0.0), 0.01 * i);
   EXPECT_NEAR(view.translation().x(), 0.12 + 1.5 * (0.18 - 0.12), 1e-12);
   EXPECT_NEAR(view.translation().tail<2>().norm(), 0.0, 1e-12);
   motion.recentre();
-  for (int i = 0; i < 5; ++i) view = motion.moved(rest * Eigen::Translation3d(0.18, 0.0, 0.0));
+  for (int i = 0; i < 5; ++i)
+    view = motion.moved(rest * Eigen::Translation3d(0.18, 0.0, 0.0), 1.0 + 0.01 * i);
   EXPECT_TRUE(view.isApprox(Pose::Identity(), 1e-12)) << "where it was recentred is at rest";
 }
 

@@ -268,6 +268,111 @@ TEST(UserInteraction, TheEyeGoesAlongWithTheHeadByTheTableOfTheThesis) {
   EXPECT_NEAR(right(), 0.06 * 0.06 / 0.12, 1e-12) << "small movements do little";
 }
 
+TEST(UserInteraction, FiltersTheHeadAsItIsTold) {
+  User user;
+  user->set_head_transfer(std::nullopt);
+  user->set_view(View());
+  const auto right = [&] {
+    return user->drawn_view().world_from_eye.translation().x() * UserInteraction::kScreenDistance;
+  };
+  const auto put = [&](double x) {
+    user.head->put(Pose(Eigen::Translation3d(x, 0.0, 0.0)));
+    user.frames(1);
+  };
+  for (int i = 0; i < 5; ++i) put(0.0);
+  put(0.05);
+  EXPECT_NEAR(right(), 0.01, 1e-12) << "the mean of five";
+  user->set_head_filter({interaction::HeadFilterKind::None, 0.0});
+  put(0.07);
+  EXPECT_NEAR(right(), 0.07, 1e-12);
+  user->set_head_filter({interaction::HeadFilterKind::None, 2.0 * kFrame});
+  for (int i = 0; i < 6; ++i) put(0.01 * i);
+  EXPECT_NEAR(right(), 0.07, 1e-9) << "two frames ahead";
+}
+
+TEST(UserInteraction, AHeadThatIsLostEasesBackToTheMiddleAndComesSoftly) {
+  User user;
+  user->set_view(View());
+  user.head->put(Pose(Eigen::Translation3d(0.2, 0.0, 0.0)));
+  user.frames(10);
+  const auto right = [&] { return user->drawn_view().world_from_eye.translation().x(); };
+  const double there = right();
+  ASSERT_GT(there, 0.1);
+  user.head->set_status(DeviceStatus::Lost);
+  const auto told = user.frames(1).devices;
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_TRUE(told[0].lost);
+  EXPECT_NE(told[0].text.find("simulated head tracker"), std::string::npos);
+  double before = right();
+  EXPECT_GT(before, 0.7 * there) << "without a jump";
+  for (int i = 0; i < 60; ++i) {
+    user.frames(1);
+    EXPECT_LE(right(), before) << "and never away from the middle";
+    before = right();
+  }
+  EXPECT_NEAR(right(), 0.0, 1e-3);
+  user.head->set_status(DeviceStatus::Ok);
+  EXPECT_EQ(user.frames(1).devices.size(), 1U);
+  EXPECT_LT(right(), 0.3 * there) << "back without a jump, too";
+  user.frames(60);
+  EXPECT_NEAR(right(), there, 1e-9);
+}
+
+TEST(UserInteraction, TheScreenIsAWindowForTheEyeWhereTheHeadIs) {
+  User user;
+  user->set_view(from_aside());
+  const View before = user->view();
+  const Pose hand = user->stage_from_device();
+  const interaction::FishTank screen = {{0.5, 0.3}, 0.6};
+  user->set_fish_tank(screen);
+  const View& rest = user->view();
+  EXPECT_NEAR(rest.distance * std::tan(0.5 * rest.field), before.distance * std::tan(0.5 * before.field),
+              1e-12)
+      << "as much is seen of the plane looked at";
+  EXPECT_NEAR(rest.field, 2.0 * std::atan(0.15 / 0.6), 1e-12);
+  EXPECT_TRUE(interaction::looked_at(rest).isApprox(interaction::looked_at(before), 1e-9));
+  base::Random random(4);
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3 place(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.5));
+    const Pose head =
+        Eigen::Translation3d(place) * Eigen::AngleAxisd(random.uniform(-0.5, 0.5), random.direction());
+    user.head->put(head);
+    user.frames(6);  // the mean of five is there
+    const double scale = rest.distance / screen.distance;
+    const View& drawn = user->drawn_view();
+    ASSERT_LT((rest.world_from_eye.inverse() * drawn.world_from_eye.translation() - scale * place).norm(),
+              1e-9)
+        << "metres of the head are metres of the screen";
+    ASSERT_TRUE(drawn.world_from_eye.linear().isApprox(rest.world_from_eye.linear(), 1e-12))
+        << "the picture lies in the screen, however the head is turned";
+    const Vector3 left = user->drawn_view(interaction::Eye::Left).world_from_eye.translation();
+    const Vector3 right = user->drawn_view(interaction::Eye::Right).world_from_eye.translation();
+    const Vector3 eyes = rest.world_from_eye.linear().transpose() * (right - left) / scale;
+    ASSERT_LT((eyes - 0.063 * head.linear().col(0)).norm(), 1e-9) << "the eyes lie along the head's right";
+    ASSERT_LT((user->stage_from_device().translation() - hand.translation()).norm(), 1e-12)
+        << "no pointer moves";
+    ASSERT_TRUE(user->stage_from_device().linear().isApprox(hand.linear(), 1e-12));
+  }
+  user->set_fish_tank(std::nullopt);
+  EXPECT_TRUE(user->view().world_from_eye.isApprox(before.world_from_eye, 1e-9));
+  EXPECT_NEAR(user->view().field, before.field, 1e-12);
+}
+
+TEST(UserInteraction, EyesLieApartBesideTheMiddle) {
+  UserInteraction user;
+  user.set_view(from_aside());
+  user.set_eye_distance(0.06);
+  const View& middle = user.drawn_view();
+  const auto aside = [&](interaction::Eye eye) {
+    return Vector3(middle.world_from_eye.inverse() * user.drawn_view(eye).world_from_eye.translation());
+  };
+  const double expected = 0.03 * middle.distance / UserInteraction::kScreenDistance;
+  EXPECT_TRUE(aside(interaction::Eye::Left).isApprox(Vector3(-expected, 0.0, 0.0), 1e-9));
+  EXPECT_TRUE(aside(interaction::Eye::Right).isApprox(Vector3(expected, 0.0, 0.0), 1e-9));
+  user.set_eye_distance(0.0);
+  EXPECT_TRUE(is_same_view(user.drawn_view(interaction::Eye::Left), middle));
+}
+
 TEST(UserInteraction, TellsOfDevicesThatGoAndComeBack) {
   User user;
   EXPECT_TRUE(user.frames(10).devices.empty());

@@ -180,5 +180,34 @@ TEST(TrialGoal, AnElementWithoutTheTargetOrWithADisabledOneIsTold) {
   EXPECT_NE(none.error().message.find("menu/pink"), std::string::npos) << none.error().message;
 }
 
+/// What the first trial of a study in its scene says of stereo.
+std::optional<bool> stereo_of(const TemplateFolder& folder, const Study& study, std::size_t condition) {
+  TrialPlan plan = measured_trial(study, {}, 0, 0);
+  plan.condition = condition;
+  const auto goal = trial_goal(study, {}, plan, folder.scene("room-1.wrl"));
+  EXPECT_TRUE(goal);
+  return goal ? goal->stereo : std::nullopt;
+}
+
+TEST(TrialGoal, StereoIsOnWhereAStudyALevelOrTheTaskHasIt) {
+  const TemplateFolder folder("head-tracking");
+  Study study = folder.study();
+  EXPECT_EQ(stereo_of(folder, study, 0), std::nullopt) << "as a person has chosen it";
+  study.needs.push_back("stereo");
+  EXPECT_EQ(stereo_of(folder, study, 1), true);
+  study = folder.study();
+  study.independent[0].levels[0].needs.push_back("stereo");
+  EXPECT_EQ(stereo_of(folder, study, 0), true);
+  EXPECT_EQ(stereo_of(folder, study, 1), false) << "the other level is without";
+  study = folder.study();
+  study.independent[0].levels[1].stereo = true;
+  EXPECT_EQ(stereo_of(folder, study, 0), false);
+  EXPECT_EQ(stereo_of(folder, study, 1), true);
+  study.independent[0].levels[1].stereo = false;
+  study.task->stereo = true;
+  EXPECT_EQ(stereo_of(folder, study, 0), true);
+  EXPECT_EQ(stereo_of(folder, study, 1), false);
+}
+
 }  // namespace
 }  // namespace icome::study
