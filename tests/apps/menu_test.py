@@ -201,12 +201,12 @@ class MenuTest(ProgramTest):
         turned = math.radians(120)  # clockwise from the top: green
         ring = plus(centre, [math.sin(turned), math.cos(turned), 0], r)
         full, white, black = wheel["corners"]
-        middle = [(f + w) / 2 for f, w in zip(full, white)]  # half as saturated, full value
+        middle = [0.25 * f + 0.75 * w for f, w in zip(full, white)]  # a quarter as saturated, full value
         way = []
         for place in (ring, middle):
             way += [plus(place, [0, 0, 1], f) for f in (0.01, -0.006, 0.01)]
         tried = self.tried(menu, path_of(way), "--choose", "push")
-        self.assertEqual([it["value"] for it in tried["choices"]], ["#00ff00", "#80ff80"])
+        self.assertEqual([it["value"] for it in tried["choices"]], ["#00ff00", "#bfffbf"])
         # Dragged from the top of the ring a quarter round: one choice where it is let go.
         quarter = [plus(centre, [math.sin(math.radians(a)), math.cos(math.radians(a)), 0], r) for a in range(0, 61, 5)]
         drag = [plus(place, [0, 0, 1], 0.005) for place in (quarter[0], *quarter)]
