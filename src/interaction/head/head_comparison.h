@@ -11,8 +11,8 @@ namespace icome::interaction {
 /// What a way of steadying does to a recorded motion; places in m, rotations in rad, times in s.
 struct HeadFilterScore {
   HeadFilterSettings settings;
-  /// Root mean square of the deviation from a straight line, or an even turn, in the stillest tenth of the
-  /// stretches of a second; nothing of a recording that is shorter.
+  /// Root mean square of the deviation from a straight line, or an even turn, in the stillest twentieth of
+  /// the stretches of half a second; nothing of a recording that is shorter.
   std::optional<double> jitter_place, jitter_turn;
   /// The shift in time by which the recording comes nearest; negative: ahead of it. Nothing where the
   /// recording is shorter than a second and a half, or nothing moves.

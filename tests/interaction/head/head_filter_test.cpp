@@ -179,12 +179,12 @@ TEST(HeadComparison, TellsTheJitterOfAStillHead) {
     return Pose(Eigen::Translation3d(Vector3(way, 0.0, 0.0) + kNoise * noise));
   });
   const HeadFilterScore none = score_of(samples, {HeadFilterKind::None, 0.0});
-  EXPECT_NEAR(*none.jitter_place, std::sqrt(3.0) * kNoise, 0.05 * kNoise);
+  EXPECT_NEAR(*none.jitter_place, std::sqrt(3.0) * kNoise, 0.12 * kNoise);
   EXPECT_NEAR(*none.jitter_turn, 0.0, 1e-9);
   EXPECT_FALSE(none.lag_turn) << "nothing turns";
   const HeadFilterScore mean = score_of(samples, {HeadFilterKind::Mean, 0.0});
   // The line through a second takes some of the slow part away.
-  EXPECT_NEAR(*mean.jitter_place, std::sqrt(3.0 / 5.0) * kNoise, 0.1 * kNoise);
+  EXPECT_NEAR(*mean.jitter_place, std::sqrt(3.0 / 5.0) * kNoise, 0.15 * kNoise);
 }
 
 TEST(HeadComparison, SaysNothingOfAMotionThatIsTooShort) {

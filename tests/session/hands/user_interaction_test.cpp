@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/random.h"
 #include "devices/simulated/simulated_head.h"
 #include "devices/simulated/simulated_navigation.h"
 
