@@ -158,7 +158,7 @@ Sinusoid fitted(const std::vector<double>& times, const std::vector<double>& val
 // The model: along each axis a tremor of that root mean square, of 9 Hz give or take a tenth.
 TEST(SimulatedPerson, TremblesWhileItHoldsStillAsItsModelSays) {
   const TemplateFolder folder("menu");
-  double sum = 0.0;
+  double sum = 0.0, frequencies = 0.0;
   int count = 0;
   for (std::uint64_t who = 0; who < 8; ++who) {
     const interaction::PersonModel model = SimulatedPerson(folder.study(), who).model();
@@ -166,23 +166,25 @@ TEST(SimulatedPerson, TremblesWhileItHoldsStillAsItsModelSays) {
       const auto run = menu_run(folder, who, 0, 1, number);
       for (int axis = 0; axis < 3; ++axis) {
         std::vector<double> times, values;
-        // What the first tick stirs up has died away by the start; it moves only after its reaction time.
+        // What the first tick stirs up has nearly died away by the start; it moves after its reaction time.
         for (const Sample& sample : run.trace.samples) {
           if (sample.time < 0.0 || sample.time >= 0.98 * model.reaction) continue;
           times.push_back(sample.time);
           values.push_back(sample.tip[axis]);
         }
         const Sinusoid tremor = fitted(times, values);
-        EXPECT_GT(tremor.frequency, 0.88 * model.tremor_hz) << who << number << axis;
-        EXPECT_LT(tremor.frequency, 1.12 * model.tremor_hz) << who << number << axis;
+        EXPECT_GT(tremor.frequency, 0.8 * model.tremor_hz) << who << number << axis;
+        EXPECT_LT(tremor.frequency, 1.2 * model.tremor_hz) << who << number << axis;
         const double ratio = tremor.amplitude / std::numbers::sqrt2 / model.arm.tremor;
-        EXPECT_NEAR(ratio, 1.0, 0.12) << who << number << axis;
+        EXPECT_NEAR(ratio, 1.0, 0.2) << who << number << axis;
         sum += ratio;
+        frequencies += tremor.frequency / model.tremor_hz;
         ++count;
       }
     }
   }
-  EXPECT_NEAR(sum / count, 1.0, 0.02);
+  EXPECT_NEAR(sum / count, 1.0, 0.03);
+  EXPECT_NEAR(frequencies / count, 1.0, 0.05);
 }
 
 /// Where a person's first movement of 20 cm to the right ends: across and aside, m off the goal. The goal is
@@ -208,7 +210,7 @@ base::Vector2 first_landing(std::uint64_t seed) {
   base::Vector2 mean = base::Vector2::Zero();
   int count = 0;
   for (const Sample& sample : run.trace.samples) {
-    if (sample.time < from || sample.time > from + 0.22) continue;  // two periods of tremor
+    if (sample.time < from || sample.time > from + 0.2) continue;  // before the button jolts it
     mean += sample.tip.head<2>();
     ++count;
   }
