@@ -188,11 +188,12 @@ class OpenElement {
     const LaidWidget* const laid = layout_.widget(widget);
     const auto sphere = laid != nullptr ? layout_.sheets[laid->sheet].sphere : std::nullopt;
     return sphere ? frame().world_from_element() * sphere->tile_at(box.centre, {0.0, 0.0})
-                  : interaction::world_from_sheet(frame(), {nullptr, box.centre});
+                  : interaction::world_from_sheet(frame(), interaction::LaidSheet{nullptr, box.centre});
   }
 
   Json item_at(const Widget& widget, const interaction::LaidBox& box) const {
     const std::size_t language = prepared_.language;
+    const base::Pose lying = pose_of(widget, box);
     Json item{{"name", widget.name},
               {"text", language < widget.text.size() ? widget.text[language] : widget.name},
               {"kind", word_of(widget.kind)},
