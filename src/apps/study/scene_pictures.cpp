@@ -5,7 +5,7 @@
 #include "charts/image.h"
 #include "render/model/views.h"
 #include "render/pictures/picture_of_scene.h"
-#include "session/elements/element_picture.h"
+#include "session/elements/element_panels.h"
 #include "study/definition/scene_reader.h"
 #include "study/definition/trial_goal.h"
 
