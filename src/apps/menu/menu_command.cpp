@@ -134,7 +134,7 @@ struct Prepared {
   interaction::TextMeasure measure;
 };
 
-Json json_of(const interaction::Value& value) { return Json::parse(interaction::json_from_value(value)); }
+Json value_json(const interaction::Value& value) { return Json::parse(interaction::json_from_value(value)); }
 
 /// An element with some of its menus and pages open.
 class OpenElement {
@@ -209,7 +209,7 @@ class OpenElement {
   void add_parts(const Widget& widget, Json& item) const {
     const bool is_one_of_several = widget.kind == WidgetKind::Row || widget.kind == WidgetKind::Page;
     if (const interaction::Value value = settings_.value_of(widget); !value.is_null() && !is_one_of_several)
-      item["value"] = json_of(value);
+      item["value"] = value_json(value);
     if (widget.opens_menu()) {
       std::vector<const Widget*> deeper = open_;
       deeper.push_back(&widget);
@@ -283,7 +283,7 @@ std::string trial_json(const MenuTrial& trial) {
     choices.push_back({{"name", choice.name},
                        {"by", word_of(choice.by)},
                        {"time_s", choice.time},
-                       {"value", json_of(choice.value)}});
+                       {"value", value_json(choice.value)}});
   }
   Json ticks = nullptr;
   if (!trial.tick_us.empty())

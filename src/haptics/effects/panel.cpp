@@ -118,7 +118,7 @@ Field inside_of(const PanelTarget& target, const Vector2& offset, double inset, 
 }
 
 /// The shape of a well: 1 in the middle of the target, 0 from its border on.
-Field well_of(const PanelTarget& target, const Vector2& offset) {
+Field well_field(const PanelTarget& target, const Vector2& offset) {
   if (target.shape == PanelTarget::Shape::Triangle) return {};
   if (target.shape == PanelTarget::Shape::Rectangle) return bowl(offset, target.half);
   const auto [half, middle] = band_of(target);
@@ -252,7 +252,7 @@ Panel::Ground Panel::ground_at(const Vector2& place) const {
     ground.detent_slope += target.detent * inside.slope;
     if (target.detent > 0.0) ground.push_depth = target.push_depth;
     ground.friction += target.friction * inside.value;
-    const Field well = well_of(target, offset);
+    const Field well = well_field(target, offset);
     const double energy = well_energy(target);
     ground.well += energy * well.value;
     ground.well_slope += energy * well.slope;

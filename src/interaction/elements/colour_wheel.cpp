@@ -25,7 +25,7 @@ std::array<double, 3> shares_at(const std::array<Vector2, 3>& corners, const Vec
   return {1.0 - second - third, second, third};
 }
 
-Vector2 nearest_on(const Vector2& from, const Vector2& to, const Vector2& place) {
+Vector2 nearest_on_side(const Vector2& from, const Vector2& to, const Vector2& place) {
   const Vector2 way = to - from;
   return from + std::clamp((place - from).dot(way) / way.squaredNorm(), 0.0, 1.0) * way;
 }
@@ -34,7 +34,7 @@ Vector2 nearest_in(const std::array<Vector2, 3>& corners, const Vector2& place) 
   if (std::ranges::min(shares_at(corners, place)) >= 0.0) return place;
   Vector2 nearest = corners[0];
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vector2 on_side = nearest_on(corners[i], corners[(i + 1) % 3], place);
+    const Vector2 on_side = nearest_on_side(corners[i], corners[(i + 1) % 3], place);
     if ((place - on_side).squaredNorm() < (place - nearest).squaredNorm()) nearest = on_side;
   }
   return nearest;
