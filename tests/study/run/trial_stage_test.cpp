@@ -262,7 +262,9 @@ TEST(TrialStage, AMenuOfTheSceneIsClickedWithTheMousesHand) {
   // What was seen is what counts; the menu may be gone before the last choice is told.
   ASSERT_FALSE(menu.shown.empty());
   EXPECT_EQ(menu.shown.front(), menu.other());
-  if (menu.shown.size() > 1) EXPECT_EQ(menu.shown.back(), menu.target());
+  if (menu.shown.size() > 1) {
+    EXPECT_EQ(menu.shown.back(), menu.target());
+  }
 }
 
 TEST(TrialStage, AMenuOfTheSceneIsPushedAndFelt) {
