@@ -138,7 +138,7 @@ std::optional<MenuChoice> SceneMenu::point_by_mouse(const interaction::Ray& way,
   const double before = kMouseShare * element_.choosing.near * frame.size;
   interaction::ElementPointer at{now, *met + before * frame.normal(), false};
   // A press is a click also where no motion of the mouse was told before it.
-  if (std::exchange(presses_, button) != button) use_->point(at);
+  if (std::exchange(presses_, button) != button && button) (void)use_->point(at);
   at.button = button;
   return told(use_->point(at));
 }

@@ -120,7 +120,7 @@ TEST(StudyReader, ElementsOfScenesThatCannotBeAreTold) {
   };
   EXPECT_NE(with("{ id = \"menu\" }").find("file"), std::string::npos);
   EXPECT_NE(with("{ id = \"a b\", file = \"m.toml\" }").find("id"), std::string::npos);
-  EXPECT_NE(with("{ id = \"menu\", file = \"m.toml\", turn = 4 }").find("'turn_deg'"), std::string::npos);
+  EXPECT_NE(with("{ id = \"menu\", file = \"m.toml\", turn = 4 }").find("'turn'"), std::string::npos);
   EXPECT_NE(with("{ id = \"menu\", file = \"m.toml\", turn_deg = 400 }").find("turn_deg"), std::string::npos);
   EXPECT_NE(with("{ id = \"menu\", file = \"m.toml\", centre = [1, 2] }").find("three numbers"),
             std::string::npos);
