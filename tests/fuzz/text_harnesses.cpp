@@ -1,4 +1,5 @@
 // Texts that people write: formulas, scripts of operations, study files, elements.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
