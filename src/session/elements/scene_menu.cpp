@@ -15,6 +15,7 @@ using interaction::LaidSheet;
 using interaction::Widget;
 
 constexpr double kResolution = 10'000.0;  // pixels a metre of the element: 40 for a capital of 4 mm
+constexpr double kSilence = 0.1;          // s without a tick, after which a hand is gone
 constexpr double kMouseShare = 0.25;      // of the near distance, at which the mouse points
 
 void enable_widgets(std::vector<Widget>& widgets,
@@ -88,6 +89,9 @@ std::optional<std::size_t> SceneMenu::nearest_hand(std::span<const MenuTick> tic
 
 std::vector<MenuChoice> SceneMenu::take(std::span<const MenuTick> ticks, double now) {
   std::vector<MenuChoice> chosen;
+  // Whoever asks more often than the hand ticks does not take it away.
+  if (ticks.empty() && hand_ && now < heard_ + kSilence) return chosen;
+  if (!ticks.empty()) heard_ = ticks.back().at.time;
   if (const auto hand = nearest_hand(ticks); hand != hand_) {
     hand_ = hand;
     if (auto choice = told(use_->change_pointer())) chosen.push_back(std::move(*choice));

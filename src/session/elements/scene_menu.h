@@ -92,6 +92,7 @@ class SceneMenu {
   std::vector<render::SceneOverlay::Panel> panels_;
   std::uint64_t drawn_ = 0;  // looks() of the pictures
   std::optional<std::size_t> hand_ = {};
+  double heard_ = 0.0;          // s, of the newest tick
   bool attended_ = false;       // by mouse or keys
   bool presses_ = false;        // the button of the mouse, or of the hand that looks, is down
   interaction::Ray gaze_ = {};  // of the last look

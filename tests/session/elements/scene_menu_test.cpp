@@ -83,6 +83,16 @@ TEST(SceneMenu, TheHandThatIsNearUsesIt) {
   EXPECT_EQ(scene.menu.use()->lit()->name, "Two");
 }
 
+TEST(SceneMenu, AHandKeepsItWhileNoTickHasCome) {
+  MenuInScene scene;
+  scene.pass({{0, {scene.at("One", 0.01), false}}});
+  EXPECT_TRUE(scene.menu.take({}, scene.time + 0.002).empty());
+  EXPECT_EQ(scene.menu.hand(), std::size_t(0));
+  EXPECT_EQ(scene.pass({{0, {scene.at("One", 0.01), true}}}), "One ");
+  scene.menu.take({}, scene.time + 0.2);
+  EXPECT_FALSE(scene.menu.hand());
+}
+
 TEST(SceneMenu, AHandThatComesWithItsButtonDownOrFromBehindChoosesNothing) {
   MenuInScene scene;
   EXPECT_EQ(scene.pass({{0, {scene.at("One", 0.01), true}}}), "");

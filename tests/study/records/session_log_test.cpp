@@ -72,7 +72,8 @@ TEST(SessionLog, TraceHasARowASample) {
   trace.samples[0] = {-0.5, {0.1, 0.2, 0.3}, base::Quaternion(1, 0, 0, 0), {1, 2, 3}, {0, -4.5, 0}, 5, -1};
   ASSERT_TRUE(log.add(trial_after(log.participant(), 0, random), trace));
   const std::string table = bytes_of(trace_file(scratch.data(), "001"));
-  EXPECT_EQ(table.substr(0, table.find('\n')), "-0.5\t0.1\t0.2\t0.3\t0\t0\t0\t1\t1\t2\t3\t0\t-4.5\t0\t5\t-1\t-1\t-1");
+  EXPECT_EQ(table.substr(0, table.find('\n')),
+            "-0.5\t0.1\t0.2\t0.3\t0\t0\t0\t1\t1\t2\t3\t0\t-4.5\t0\t5\t-1\t-1\t-1");
   EXPECT_EQ(lines_of(trace_file(scratch.data(), "001")), 2U);
   const fs::path channels =
       scratch.data() / "sub-001/motion/sub-001_task-datatest_tracksys-pointer_channels.tsv";

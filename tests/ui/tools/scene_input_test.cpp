@@ -47,7 +47,7 @@ TEST(SceneInput, SqueezedHalvesCountAsTheyAreStretched) {
 /// A session with a head and a box of 0.2 m at the middle, 2 m off.
 class EyesTest : public DesktopTest {
  protected:
-  EyesTest() : EyesTest(std::make_unique<devices::SimulatedHead>()) {}
+  EyesTest() : EyesTest(new devices::SimulatedHead) {}
 
   /// The place in the whole window where an eye sees a point, by similar triangles on the screen; shares.
   static base::Vector2 seen_at(const Vector3& point, const Vector3& eye, const base::Vector2& half) {
@@ -59,9 +59,7 @@ class EyesTest : public DesktopTest {
   devices::SimulatedHead* head_;
 
  private:
-  explicit EyesTest(std::unique_ptr<devices::SimulatedHead> head) : EyesTest(head.get(), settings(head)) {}
-  EyesTest(devices::SimulatedHead* head, session::SessionSettings settings)
-      : DesktopTest(std::move(settings)), head_(head) {
+  explicit EyesTest(devices::SimulatedHead* head) : DesktopTest(settings(head)), head_(head) {
     const auto shape = session().ids().next<world::GeometryId>();
     const auto id = session().ids().next<world::ObjectId>();
     world::PhysicalObject object{.name = "box", .geometry = shape};
@@ -75,9 +73,10 @@ class EyesTest : public DesktopTest {
     session().settle();
     session().update();
   }
-  static session::SessionSettings settings(std::unique_ptr<devices::SimulatedHead>& head) {
+  /// Takes the head.
+  static session::SessionSettings settings(devices::SimulatedHead* head) {
     session::SessionSettings settings;
-    settings.head = std::move(head);
+    settings.head.reset(head);
     return settings;
   }
 };
