@@ -196,9 +196,8 @@ void CutoutWindow::make_docks() {
     made->setWidget(content);
     addDockWidget(area, made);
     // A dock behind another lies out of sight, and the Tab key would still go there.
-    connect(made, &QDockWidget::visibilityChanged, content, [content](bool is_seen) {
-      content->setEnabled(is_seen);
-    });
+    connect(made, &QDockWidget::visibilityChanged, content,
+            [content](bool is_seen) { content->setEnabled(is_seen); });
     return made;
   };
   cells_ = new CellTree(document_, this);
@@ -364,9 +363,8 @@ void CutoutWindow::make_cell_menu(QMenu& menu) {
   menu.addSeparator();
   of_selection_.push_back(
       add(menu, "cell.rename", "&Rename", QKeySequence("F2"), [this] { cells_->rename(); }));
-  of_selection_.push_back(add(menu, "cell.duplicate", "&Duplicate", QKeySequence("Ctrl+D"), [this] {
-    duplicate_selected();
-  }));
+  of_selection_.push_back(
+      add(menu, "cell.duplicate", "&Duplicate", QKeySequence("Ctrl+D"), [this] { duplicate_selected(); }));
   of_selection_.back()->setIcon(icon(Icon::Duplicate));
   of_selection_.push_back(add(menu, "cell.front", "Bring to the &Front", QKeySequence("Ctrl+]"),
                               [this] { cells_->move_chosen(1); }));

@@ -91,9 +91,10 @@ void CutoutDocument::begin_journal(std::uint64_t length) {
     return risk_({});
   }
   if (is_elsewhere)
-    return risk_(fmt::format("{} is open in another window already. What is done here is not kept against a "
-                             "crash, and saving asks first.",
-                             file.filename().string()));
+    return risk_(
+        fmt::format("{} is open in another window already. What is done here is not kept against a "
+                    "crash, and saving asks first.",
+                    file.filename().string()));
   risk_(fmt::format("{} What you do is not safe from a crash: save it often.", journal.error().message));
 }
 

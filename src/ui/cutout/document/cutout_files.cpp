@@ -81,7 +81,8 @@ class ExportNameDialog final : public QFileDialog {
   static QString stem_of(QString name) {
     if (name.endsWith('/')) return name;
     for (const char* ending : {".mp4", ".webm", ".gif", ".apng", ".png", ".svg"})
-      if (name.endsWith(ending, Qt::CaseInsensitive)) name.chop(qsizetype(std::char_traits<char>::length(ending)));
+      if (name.endsWith(ending, Qt::CaseInsensitive))
+        name.chop(qsizetype(std::char_traits<char>::length(ending)));
     return name.remove("%04d");
   }
   void offer(const QString& filter, const QString& stem) {
@@ -114,9 +115,10 @@ std::string recovered_words(const std::string& name, std::size_t edits) {
   if (edits == 1)
     return fmt::format("1 edit of {} was not saved when the program ended. It is recovered: save to keep it.",
                        name);
-  return fmt::format("{} edits of {} were not saved when the program ended. They are recovered: save to keep "
-                     "them.",
-                     edits, name);
+  return fmt::format(
+      "{} edits of {} were not saved when the program ended. They are recovered: save to keep "
+      "them.",
+      edits, name);
 }
 
 /// Without the name of the tool, which is nothing to a person who has chosen from a menu.
@@ -196,7 +198,8 @@ void CutoutFiles::save_to(std::filesystem::path file) {
 void CutoutFiles::save_if_agreed(const std::filesystem::path& file) {
   const std::string reason = document_.reason_not_to_write(file);
   if (reason.empty()) return save_to(file);
-  auto* box = cutout_question(window_, "cutout.overwrite", "Overwrite the File?", QString::fromStdString(reason));
+  auto* box =
+      cutout_question(window_, "cutout.overwrite", "Overwrite the File?", QString::fromStdString(reason));
   box->setInformativeText("Overwriting takes away what was done to it elsewhere.");
   const auto* overwrite = box->addButton("&Overwrite", QMessageBox::DestructiveRole);
   const auto* elsewhere = box->addButton("Save &As\u2026", QMessageBox::AcceptRole);
@@ -255,8 +258,7 @@ void CutoutFiles::when_safe(const std::function<void()>& then) {
 
 void CutoutFiles::tell_left_out(const std::vector<std::string>& problems, std::size_t all) {
   if (problems.empty()) return;
-  if (all == 1)
-    return tell_({.weight = Note::Weight::Error, .text = problems.front(), .topic = "pictures"});
+  if (all == 1) return tell_({.weight = Note::Weight::Error, .text = problems.front(), .topic = "pictures"});
   tell_({.weight = Note::Weight::Warning,
          .text = fmt::format("{} of {} pictures could not be read, and {} left out.", problems.size(), all,
                              problems.size() == 1 ? "was" : "were"),
@@ -308,13 +310,13 @@ void CutoutFiles::choose_more_pictures() {
   auto* dialog = cutout_dialog(window_, "cutout.more_pictures", "More Pictures for the Cell",
                                {kCellFiles, "All files (*)"});
   dialog->setFileMode(QFileDialog::ExistingFiles);
-  QObject::connect(dialog, &QFileDialog::filesSelected, &window_,
-                   [this, name = cell->name](const QStringList& paths) {
-                     const std::vector<std::string> names = readable_of(paths_of_texts(paths));
-                     if (!names.empty())
-                       document_.perform(cutout_command(
-                           "add-picture", {{"cell", name}, {"pictures", command_texts(names)}}));
-                   });
+  QObject::connect(
+      dialog, &QFileDialog::filesSelected, &window_, [this, name = cell->name](const QStringList& paths) {
+        const std::vector<std::string> names = readable_of(paths_of_texts(paths));
+        if (!names.empty())
+          document_.perform(
+              cutout_command("add-picture", {{"cell", name}, {"pictures", command_texts(names)}}));
+      });
   dialog->open();
 }
 
@@ -355,7 +357,8 @@ void CutoutFiles::choose_sound() {
 void CutoutFiles::use_sound(const std::filesystem::path& file) {
   const std::string name = document_.name_in_project(file);
   QApplication::setOverrideCursor(Qt::WaitCursor);
-  const auto samples = animation::read_track(document_.folder(), {.file = name}, 0, animation::Reach::Anywhere);
+  const auto samples =
+      animation::read_track(document_.folder(), {.file = name}, 0, animation::Reach::Anywhere);
   QApplication::restoreOverrideCursor();
   if (!samples)
     return tell_({.weight = Note::Weight::Error, .text = samples.error().message, .topic = "sound"});
@@ -397,10 +400,10 @@ void CutoutFiles::export_if_agreed(const std::string& out, const animation::Expo
   // Films are asked for by the dialog, and a wrong name is told by the export itself.
   const int there = names && animation::is_sequence(names->format) ? frames_there(*names, range) : 0;
   if (there == 0) return export_to(out, options);
-  auto* box = cutout_question(
-      window_, "cutout.replace_frames", "Replace Files?",
-      there == 1 ? QString("1 of these files is there already. Replace it?")
-                 : QString("%L1 of these files are there already. Replace them?").arg(there));
+  auto* box =
+      cutout_question(window_, "cutout.replace_frames", "Replace Files?",
+                      there == 1 ? QString("1 of these files is there already. Replace it?")
+                                 : QString("%L1 of these files are there already. Replace them?").arg(there));
   const auto* replace = box->addButton("&Replace", QMessageBox::DestructiveRole);
   QObject::connect(box, &QMessageBox::finished, &window_, [=, this] {
     if (box->clickedButton() == replace) export_to(out, options);

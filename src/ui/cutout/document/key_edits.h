@@ -60,8 +60,7 @@ animation::ProjectEdit one_key(const animation::Project& project, CellId cell, C
                                double value);
 
 /// A cell lain elsewhere by so many px at all frames.
-animation::ProjectEdit shifted_cell(const animation::Project& project, CellId cell,
-                                    const base::Vector2& by);
+animation::ProjectEdit shifted_cell(const animation::Project& project, CellId cell, const base::Vector2& by);
 
 /// All keys at that frame of some cells; of all cells where none is named.
 KeyPlaces keys_at(const animation::Project& project, const std::vector<CellId>& cells, int frame);

@@ -107,7 +107,7 @@ class StageView final : public QWidget {
       animation::Affine2::Identity();  // pixels of the picture from px of the stage
   Contact contact_ = Contact::None;
   StageDrag drag_;
-  int drag_frame_ = 0;  // the animation's, in which it began
+  int drag_frame_ = 0;                  // the animation's, in which it began
   std::size_t steps_before_nudge_ = 0;  // of undo, before a key was pressed that moves cells
   QPointF pressed_, last_;
   bool strict_ = false;  // a drag goes along one axis, or in steps of an angle
