@@ -221,6 +221,7 @@ TEST_F(TransportTest, EscapeStopsPlayingAndRecording) {
     QTest::keyClick(&stage(), Qt::Key_Escape);
     return transport().is_still();
   };
+  document().select({cell("boat").id});
   transport().play();
   EXPECT_TRUE(stops());
   transport().set_count_in(4);
