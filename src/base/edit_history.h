@@ -56,6 +56,13 @@ class EditHistory {
   void as_one_step(Work&& work) {
     const std::size_t before = undo_.size();
     work();
+    join_steps(before);
+  }
+
+  /// Steps that can be undone.
+  std::size_t steps() const { return undo_.size(); }
+  /// All steps after the first `before` ones become one.
+  void join_steps(std::size_t before) {
     if (undo_.size() <= before + 1) return;
     Edit joined;
     for (; undo_.size() > before; undo_.pop_back())

@@ -1,5 +1,6 @@
 """The window of cut-out animations as people use it: cells dragged by the mouse, keyed by Space, played, saved."""
 import json
+import time
 import unittest
 
 from desktop_program import DesktopTest, wait_for
@@ -94,14 +95,47 @@ class CutoutWindowTest(DesktopTest):
     def test_it_plays_and_goes_back(self):
         project = self.make_project()
         edits = self.folder / "more.jsonl"
-        edits.write_text('{"op": "key", "cell": "square", "frame": 0, "x": 200}\n'
-                         '{"op": "key", "cell": "square", "frame": 23, "x": 1000}\n')
+        edits.write_text('{"op": "stage", "length": 600}\n'
+                         '{"op": "key", "cell": "square", "frame": 0, "x": 200}\n'
+                         '{"op": "key", "cell": "square", "frame": 599, "x": 1000}\n')
         self.assertEqual(run("animate", project, "--apply", edits, "--save", project).returncode, 0)
         desktop = self.open_window(project)
         start = self.square(desktop)[0]
         desktop.key("p")
-        wait_for("a square that moves", lambda: (self.square(desktop) or (start,))[0] > start + 40)
+        wait_for("a square that moves", lambda: (self.square(desktop) or (start,))[0] > start + 20)
         desktop.key("Escape")
+
+        def stands():
+            before = self.square(desktop)
+            time.sleep(0.3)
+            return before is not None and self.square(desktop) == before
+        wait_for("a square that stands", stands)
+        desktop.key("End")
+        stopped = self.square(desktop)[0]
+        wait_for("the last frame", lambda: (self.square(desktop) or (stopped,))[0] > stopped)
+        desktop.quit()
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
+
+    def test_saving_asks_where_the_file_was_changed_elsewhere(self):
+        project = self.make_project()
+        desktop = self.open_window(project)
+        self.drag_square(desktop, (-150, 60))
+        desktop.key("space")
+        desktop.wait_title(r"\*")
+        others = project.read_text() + "# by another program\n"
+        project.write_text(others)
+        desktop.key("ctrl+s")
+        desktop.find_window("Overwrite the File")
+        self.keep(desktop, "cutout-overwrite")
+        desktop.key("Escape")
+        self.assertEqual(project.read_text(), others)
+        desktop.screen.ask("windowactivate", "--sync", desktop.window)
+        desktop.key("ctrl+s")
+        desktop.find_window("Overwrite the File")
+        desktop.key("alt+o")
+        wait_for("a saved project", lambda: "another program" not in project.read_text())
+        self.assertGreaterEqual(self.keys_in(project), 2)
+        desktop.screen.ask("windowactivate", "--sync", desktop.window)
         desktop.quit()
         self.assertEqual(desktop.wait_end(), 0, desktop.printed())
 

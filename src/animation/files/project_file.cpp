@@ -17,13 +17,6 @@ namespace {
 
 constexpr std::size_t kLongestJournal = std::size_t{1} << 30U;  // bytes
 
-/// A number that another text almost surely does not have (FNV-1a).
-std::uint64_t hash_of_text(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3ULL;
-  return hash;
-}
-
 std::string header_of(std::string_view saved_text) {
   return fmt::format("# Edits of a cut-out animation since it was saved; from {:016x}\n",
                      hash_of_text(saved_text));
@@ -64,6 +57,17 @@ struct ProjectJournal::File {
   }
 };
 
+std::uint64_t hash_of_text(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3ULL;
+  return hash;
+}
+
+std::optional<std::uint64_t> hash_of_file(const std::filesystem::path& path) {
+  const auto text = io::read_bytes(path, kLongestProject);
+  return text ? std::optional(hash_of_text(*text)) : std::nullopt;
+}
+
 std::filesystem::path journal_of(const std::filesystem::path& file) {
   return file.parent_path() / fmt::format(".{}.journal", file.filename().string());
 }
@@ -75,6 +79,7 @@ base::Result<ProjectRead> read_project_file(const std::filesystem::path& path) {
   if (!project) return tl::unexpected(project.error());
   ProjectRead read;
   read.project = std::move(*project);
+  read.hash = hash_of_text(*text);
   const std::filesystem::path journal = journal_of(path);
   std::error_code ignored;
   if (!std::filesystem::exists(journal, ignored)) return read;
@@ -90,7 +95,9 @@ base::Result<ProjectRead> read_project_file(const std::filesystem::path& path) {
     return read;
   }
   read.journal_length = header.size();
+  Project as_saved = read.project;
   replay(std::string_view(*lines).substr(header.size()), journal.string(), read);
+  if (read.recovered > 0) read.as_saved = std::move(as_saved);
   return read;
 }
 
@@ -126,6 +133,13 @@ base::Result<ProjectJournal> ProjectJournal::open(const std::filesystem::path& f
   if (length > 0) return journal;
   if (auto written = journal.write(header_of(*text)); !written) return tl::unexpected(written.error());
   return journal;
+}
+
+bool ProjectJournal::is_open(const std::filesystem::path& file) {
+  File journal;
+  journal.descriptor = ::open(journal_of(file).c_str(), O_RDONLY | O_CLOEXEC);
+  return journal.descriptor >= 0 && ::flock(journal.descriptor, LOCK_SH | LOCK_NB) != 0 &&
+         errno == EWOULDBLOCK;
 }
 
 base::Result<void> ProjectJournal::write(std::string_view bytes) {

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,12 +15,19 @@ namespace icome::animation {
 struct ProjectRead {
   Project project;
   std::size_t recovered = 0;         ///< edits of the journal that are in `project` and not in the file
+  std::optional<Project> as_saved;   ///< as the file itself has it; none where nothing was recovered
+  std::uint64_t hash = 0;            ///< hash_of_text() of the file
   std::uint64_t journal_length = 0;  ///< bytes of the journal that were whole; 0: there is none that fits
   std::string note;                  ///< about the journal, for people; mostly empty
 };
 
 /// Reads a .cutout file, and what a journal beside it adds. Fails with file and line.
 base::Result<ProjectRead> read_project_file(const std::filesystem::path& path);
+
+/// A number that another text almost surely does not have (FNV-1a).
+std::uint64_t hash_of_text(std::string_view text);
+/// That of a file's text; none where there is no such file, or it cannot be read.
+std::optional<std::uint64_t> hash_of_file(const std::filesystem::path& path);
 
 /// Writes a .cutout file, which appears whole or not at all.
 base::Result<void> write_project_file(const Project& project, const std::filesystem::path& path);
@@ -36,6 +44,9 @@ class ProjectJournal {
   /// another version of the file is moved aside, to a name that ends with ".old". Fails with the path, and
   /// where another program has the file open.
   static base::Result<ProjectJournal> open(const std::filesystem::path& file, std::uint64_t length = 0);
+
+  /// Does a window of this or another program have the file open, with a journal?
+  static bool is_open(const std::filesystem::path& file);
 
   ProjectJournal(ProjectJournal&&) noexcept;
   ProjectJournal& operator=(ProjectJournal&&) noexcept;

@@ -373,7 +373,7 @@ class ProjectApplying {
       return base::fail(fmt::format("there is no constraint {}", part.id.value));
     if (const Joint* joint = std::get_if<Joint>(&found->what))
       if (const Constraint* chain = chain_with(project_, *joint))
-        return base::fail(fmt::format("the chain {} needs this joint", chain->id.value));
+        return base::fail(fmt::format("the chain from {} needs this joint", ends_of(*chain)));
     const PutConstraint back = {std::size_t(found - project_.constraints.begin()), *found};
     project_.constraints.erase(found);
     return ProjectChange(back);
@@ -413,6 +413,10 @@ class ProjectApplying {
     std::size_t place;
   };
 
+  std::string ends_of(const Constraint& chain) const {
+    const auto& cells = std::get<Chain>(chain.what).cells;
+    return fmt::format("'{}' to '{}'", project_.find(cells.front())->name, project_.find(cells.back())->name);
+  }
   static std::string no_layer(LayerId id) { return fmt::format("there is no layer {}", id.value); }
   static std::string no_cell(CellId id) { return fmt::format("there is no cell {}", id.value); }
   static std::string no_place(const char* things, std::size_t count, std::size_t place) {

@@ -58,6 +58,9 @@ class AnimationRunner {
   base::Result<void> perform(const ProjectEdit& edit) { return history_.perform(edit); }
   /// All that `work` performs is one step to undo.
   void as_one_step(const std::function<void()>& work) { history_.as_one_step(work); }
+  /// Steps that can be undone, and those after the first `before` ones made one.
+  std::size_t steps() const { return history_.steps(); }
+  void join_steps(std::size_t before) { history_.join_steps(before); }
   /// Takes back, or does again, one step; false where there is none.
   bool undo() { return history_.undo(); }
   bool redo() { return history_.redo(); }

@@ -93,11 +93,26 @@ Track exposed(std::size_t pictures, int from, int each) {
   return track;
 }
 
+/// Takes the pictures out that cannot be read, and tells which. Fails where none is left.
+base::Result<void> keep_readable(Staging& staging, std::vector<std::string>& pictures) {
+  std::string faults;
+  std::erase_if(pictures, [&](const std::string& picture) {
+    const auto size = staging.disk.size(picture);
+    if (!size) faults += (faults.empty() ? "" : "; ") + size.error().message;
+    return !size;
+  });
+  if (pictures.empty()) return base::fail(faults);
+  if (!faults.empty()) staging.note = "left out: " + faults;
+  return {};
+}
+
 base::Result<ProjectEdit> plan_import(Staging& staging, const Arguments& arguments) {
   const std::string& folder = arguments.text("folder");
-  const auto pictures = staging.disk.pictures(folder);
+  auto pictures = staging.disk.pictures(folder);
   if (!pictures) return tl::unexpected(pictures.error());
   if (pictures->empty()) return base::fail(fmt::format("{}: there is no picture (.png, .jpg, .svg)", folder));
+  if (arguments.flag("skip"))
+    if (const auto kept = keep_readable(staging, *pictures); !kept) return tl::unexpected(kept.error());
   ProjectEdit edit;
   const auto layer = layer_for_cell(staging, arguments, edit);
   if (!layer) return tl::unexpected(layer.error());
@@ -320,7 +335,11 @@ std::vector<AnimationTool> cell_tools() {
                        text_parameter("name", "of the one cell; the folder's, else", false),
                        layer_parameter(false),
                        frame,
-                       each}},
+                       each,
+                       {.name = "skip",
+                        .kind = ParameterKind::Flag,
+                        .meaning = "leaves pictures out that cannot be read, and tells which",
+                        .fallback = false}}},
        plan_import},
       {{.name = "change-cell",
         .title = "Change Cell",

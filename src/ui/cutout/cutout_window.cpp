@@ -7,12 +7,18 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QInputDialog>
+#include <QKeyEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenuBar>
+#include <QMessageBox>
+#include <QPainter>
 #include <QPushButton>
+#include <QScreen>
 #include <QStatusBar>
 #include <QTabWidget>
 #include <QToolBar>
+#include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -34,6 +40,10 @@ constexpr int kTimeHeight = 62 * kGrid;
 constexpr double kStageZoomStep = 1.25;
 constexpr int kWordsStay = 6000;   // ms
 constexpr int kValuesFollow = 60;  // ms
+constexpr int kTitleHeight = 40;   // pixels that a window's frame may need
+constexpr QSize kUsualSize(1360, 900);
+constexpr const char* kRiskTopic = "risk";
+const animation::Vector2 kCopyLiesBeside(12.0, 12.0);  // px
 constexpr const char* kNoCutoutDisplayWays =
     "`icome animate` changes an animation without one, and exports it.";
 constexpr const char* kHint =
@@ -44,6 +54,21 @@ std::unique_ptr<QSettings> settings_in(const QString& file) {
                                  : std::make_unique<QSettings>(file, QSettings::IniFormat);
   settings->beginGroup("animation");
   return settings;
+}
+
+/// The line edit takes the keys of undo and redo only for what is typed there and not yet entered: after
+/// that they are the animation's.
+bool leaves_to_window(const QLineEdit& field, const QKeyEvent& key) {
+  return (key.matches(QKeySequence::Undo) && !field.isUndoAvailable()) ||
+         (key.matches(QKeySequence::Redo) && !field.isRedoAvailable());
+}
+
+/// The style draws next to nothing around a flat button that has the keyboard's focus.
+void paint_focus_ring(QToolButton& button) {
+  QPainter painter(&button);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(colours().accent, 1.6));
+  painter.drawRoundedRect(QRectF(button.rect()).adjusted(1, 1, -1, -1), 3, 3);
 }
 
 ShortcutSheet::Part stage_part() {
@@ -109,13 +134,19 @@ CutoutWindow::CutoutWindow(const QString& settings, QWidget* parent)
   });
   document_.on_change([this](CutoutChange change) { hear(change); });
   document_.on_remark([this](const std::string& remark) { tell_remark(remark); });
+  document_.on_risk([this](const std::string& risk) {
+    if (risk.empty()) return banner_->forget(kRiskTopic);
+    tell({.weight = Note::Weight::Warning, .text = risk, .topic = kRiskTopic});
+  });
   transport_.on_state([this] { show_state(); });
   late_values_.setSingleShot(true);
   late_values_.setInterval(kValuesFollow);
   connect(&late_values_, &QTimer::timeout, this, [this] { cell_->refresh(); });
-  resize(1360, 900);
+  resize(kUsualSize.boundedTo(screen()->availableSize() - QSize(0, kTitleHeight)));
   resizeDocks(findChildren<QDockWidget*>(), {kPanelWidth, kPanelWidth, kPanelWidth, kPanelWidth},
               Qt::Horizontal);
+  for (QLineEdit* field : findChildren<QLineEdit*>()) field->installEventFilter(this);
+  for (QToolButton* button : findChildren<QToolButton*>()) button->installEventFilter(this);
   show_project();
   show_state();
   stage_->setFocus();
@@ -126,6 +157,7 @@ CutoutWindow::~CutoutWindow() {
   // Parts of the window hear of the focus that leaves them, and need the document for that.
   hide();
   document_.on_change([](CutoutChange) {});
+  document_.on_risk([](const std::string&) {});
   transport_.on_state([] {});
   delete takeCentralWidget();
   qDeleteAll(findChildren<QDockWidget*>());
@@ -163,6 +195,9 @@ void CutoutWindow::make_docks() {
     made->setObjectName(name);
     made->setWidget(content);
     addDockWidget(area, made);
+    // A dock behind another lies out of sight, and the Tab key would still go there.
+    connect(made, &QDockWidget::visibilityChanged, content,
+            [content](bool is_seen) { content->setEnabled(is_seen); });
     return made;
   };
   cells_ = new CellTree(document_, this);
@@ -328,10 +363,8 @@ void CutoutWindow::make_cell_menu(QMenu& menu) {
   menu.addSeparator();
   of_selection_.push_back(
       add(menu, "cell.rename", "&Rename", QKeySequence("F2"), [this] { cells_->rename(); }));
-  of_selection_.push_back(add(menu, "cell.duplicate", "&Duplicate", QKeySequence("Ctrl+D"), [this] {
-    const animation::Cell* const cell = document_.leading();
-    if (cell != nullptr) document_.perform(cutout_command("copy-cell", {{"cell", cell->name}}));
-  }));
+  of_selection_.push_back(
+      add(menu, "cell.duplicate", "&Duplicate", QKeySequence("Ctrl+D"), [this] { duplicate_selected(); }));
   of_selection_.back()->setIcon(icon(Icon::Duplicate));
   of_selection_.push_back(add(menu, "cell.front", "Bring to the &Front", QKeySequence("Ctrl+]"),
                               [this] { cells_->move_chosen(1); }));
@@ -405,6 +438,10 @@ void CutoutWindow::make_key_menu(QMenu& menu) {
 void CutoutWindow::make_play_menu(QMenu& menu) {
   play_ = add(menu, "frame.play", "P&lay", QKeySequence("P"),
               [this] { transport_.is_still() ? transport_.play() : transport_.stop(); });
+  stop_ = add(menu, "frame.stop", "S&top", QKeySequence("Esc"), [this] {
+    transport_.stop();
+    stage_->let_go();
+  });
   QAction* const again = add(menu, "frame.again", "Play A&gain and Again", QKeySequence("L"), [] {});
   again->setCheckable(true);
   again->setIcon(icon(Icon::Again));
@@ -556,6 +593,7 @@ void CutoutWindow::show_project() {
                       .arg(keys)
                       .arg(keys == 1 ? "key" : "keys"));
   action("file.silence")->setEnabled(project.sound.has_value());
+  if (!document_.is_modified()) banner_->forget(kRecoveredTopic);
   show_title();
   show_frame();
   show_selection();
@@ -597,6 +635,7 @@ void CutoutWindow::show_state() {
   stage_->show_words(transport_.beats() > 0 ? QString::number(transport_.beats()) : QString());
   stage_->show_recording(records);
   for (QAction* it : of_still_) it->setEnabled(is_still);
+  stop_->setEnabled(!is_still);  // else Esc backs out of other things
   record_->setEnabled(is_still || records);
   action("frame.record_layer")->setEnabled(is_still);
   show_title();
@@ -675,6 +714,24 @@ void CutoutWindow::delete_selected() {
     return;
   }
   cells_->delete_chosen();
+}
+
+void CutoutWindow::duplicate_selected() {
+  std::vector<CellId> copies;
+  document_.as_one_step([&] {
+    for (const CellId id : std::vector<CellId>(document_.selection())) {
+      if (id == animation::kCamera) continue;
+      const std::uint64_t first = document_.next_id();
+      if (!document_.perform(cutout_command("copy-cell", {{"cell", document_.project().find(id)->name}})))
+        continue;
+      // A layer may have been made for it before.
+      const CellId copy{document_.next_id() - 1};
+      if (copy.value < first) continue;
+      document_.perform(shifted_cell(document_.project(), copy, kCopyLiesBeside));
+      copies.push_back(copy);
+    }
+  });
+  if (!copies.empty()) document_.select(copies);
 }
 
 void CutoutWindow::record(bool only_layer) {
@@ -765,15 +822,52 @@ void CutoutWindow::offer_lost() {
 
 void CutoutWindow::closeEvent(QCloseEvent* event) {
   transport_.stop();
-  if (agreed_ || !document_.is_modified()) {
-    document_.close();
-    return event->accept();
+  // What is being typed is entered now: after the journal has ended it would be lost, or kept for nothing.
+  if (qobject_cast<QLineEdit*>(focusWidget()) != nullptr) stage_->setFocus();
+  if (!agreed_ && document_.is_modified()) {
+    event->ignore();
+    return files_.when_safe([this] {
+      agreed_ = true;
+      close();
+    });
   }
-  event->ignore();
-  files_.when_safe([this] {
-    agreed_ = true;
-    close();
+  if (files_.is_exporting() && !stops_export_) {
+    event->ignore();
+    return ask_to_stop_export();
+  }
+  files_.cancel_export();
+  document_.close_for_good();
+  event->accept();
+}
+
+void CutoutWindow::ask_to_stop_export() {
+  auto* box = new QMessageBox(QMessageBox::Question, "Stop the Export?", "An export is under way.",
+                              QMessageBox::NoButton, this);
+  box->setObjectName("cutout.stop_export");
+  box->setInformativeText("If it is stopped, nothing of it is written.");
+  const auto* stop = box->addButton("&Stop the Export and Close", QMessageBox::DestructiveRole);
+  box->setDefaultButton(box->addButton("&Go On", QMessageBox::RejectRole));
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  connect(box, &QMessageBox::finished, this, [=, this] {
+    // Work that is done from now on is to be asked for again.
+    stops_export_ = agreed_ = box->clickedButton() == stop;
+    if (stops_export_) close();
   });
+  box->open();
+}
+
+bool CutoutWindow::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto* const field = qobject_cast<QLineEdit*>(watched);
+    if (field == nullptr || !leaves_to_window(*field, static_cast<const QKeyEvent&>(*event))) return false;
+    event->ignore();
+    return true;
+  }
+  auto* const button = qobject_cast<QToolButton*>(watched);
+  if (event->type() != QEvent::Paint || button == nullptr || !button->hasFocus()) return false;
+  watched->event(event);
+  paint_focus_ring(*button);
+  return true;
 }
 
 void open_cutout_window(const std::filesystem::path& file) {

@@ -55,10 +55,13 @@ class CutoutWindow final : public QMainWindow {
   void paste_keys();
   /// Deletes what is selected where the keyboard is: keys, exposures or cells.
   void delete_selected();
+  /// Puts a copy of each selected cell a little beside it, and selects the copies.
+  void duplicate_selected();
   void ask_mark(int frame);
 
  protected:
   void closeEvent(QCloseEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   struct Entry {
@@ -103,6 +106,7 @@ class CutoutWindow final : public QMainWindow {
   void set_mark(int frame, const QString& text);
   void show_shortcuts();
   void choose_export();
+  void ask_to_stop_export();
   QAction* action(const char* name) const;
 
   std::unique_ptr<QSettings> settings_;
@@ -127,14 +131,15 @@ class CutoutWindow final : public QMainWindow {
   ConstraintPanel* constraints_ = nullptr;
   QMenu *recent_menu_ = nullptr, *cell_menu_ = nullptr, *key_menu_ = nullptr;
   QAction *open_ = nullptr, *save_ = nullptr, *undo_ = nullptr, *redo_ = nullptr, *paste_ = nullptr;
-  QAction *play_ = nullptr, *record_ = nullptr, *pose_ = nullptr;
+  QAction *play_ = nullptr, *record_ = nullptr, *pose_ = nullptr, *stop_ = nullptr;
   std::vector<QAction*> of_still_;      // they need the film to stand still
   std::vector<QAction*> of_selection_;  // they need a cell
   std::vector<QAction*> steps_, runs_;  // for the bar below the stage
   QLabel *hint_ = nullptr, *place_ = nullptr, *count_ = nullptr;
   QTimer late_values_;
   std::vector<std::filesystem::path> lost_;
-  bool agreed_ = false;  // a person has agreed to close
+  bool agreed_ = false;        // a person has agreed to close
+  bool stops_export_ = false;  // and that an export ends with that
 };
 
 }  // namespace icome::ui

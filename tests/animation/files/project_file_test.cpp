@@ -98,6 +98,26 @@ TEST_F(ProjectFileTest, IsOpenOnlyOnce) {
   EXPECT_EQ(second.error().message, file_.string() + ": is open in another window already");
 }
 
+TEST_F(ProjectFileTest, TellsWhetherItIsOpenAndWhatItsTextIs) {
+  ASSERT_TRUE(write_project_file({}, file_));
+  EXPECT_FALSE(ProjectJournal::is_open(file_));
+  {
+    auto journal = ProjectJournal::open(file_);
+    EXPECT_TRUE(ProjectJournal::is_open(file_));
+    ASSERT_TRUE(journal->add({SmoothHands{true}}));
+  }
+  EXPECT_FALSE(ProjectJournal::is_open(file_)) << "it is left, as after a crash";
+  const auto read = read_project_file(file_);
+  ASSERT_TRUE(read && read->as_saved);
+  EXPECT_FALSE(read->as_saved->smooth_hands);
+  EXPECT_TRUE(read->project.smooth_hands);
+  EXPECT_EQ(read->hash, hash_of_text(project_text({})));
+  EXPECT_EQ(hash_of_file(file_), read->hash);
+  std::ofstream(file_, std::ios::app) << "\n";
+  EXPECT_NE(hash_of_file(file_), read->hash);
+  EXPECT_EQ(hash_of_file(file_.string() + "x"), std::nullopt);
+}
+
 TEST_F(ProjectFileTest, SaysWhichFileIsMissing) {
   EXPECT_NE(read_project_file(file_).error().message.find("boat.cutout"), std::string::npos);
 }

@@ -135,7 +135,8 @@ TEST(ProjectEdit, KeepsJointsWithoutRingsAndChainsJoined) {
   EXPECT_EQ(refusal_of(chain({CellId{4}, CellId{6}}), project),
             "'mast' is not joined to 'sea', the one before it in the chain");
   ASSERT_TRUE(apply_edit(project, {chain({CellId{4}, CellId{5}, CellId{6}})}));
-  EXPECT_EQ(refusal_of(TakeConstraint{ConstraintId{11}}, project), "the chain 20 needs this joint");
+  EXPECT_EQ(refusal_of(TakeConstraint{ConstraintId{11}}, project),
+            "the chain from 'sea' to 'mast' needs this joint");
   EXPECT_EQ(refusal_of(TakeCell{CellId{6}}, project), "a constraint needs the cell 'mast'");
 }
 

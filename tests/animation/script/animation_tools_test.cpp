@@ -16,6 +16,7 @@ using interaction::Value;
 /// A disk with pictures of 100 x 60 px, one that is larger, and a folder of three.
 ProjectDisk small_disk() {
   return {[](const std::string& file) -> base::Result<Vector2> {
+            if (file == "torn/2.png") return base::fail("torn/2.png: is torn");
             if (file == "gone.png") return base::fail("gone.png: no such file");
             return file == "big.png" ? Vector2(400, 300) : Vector2(100, 60);
           },
@@ -87,6 +88,9 @@ TEST_F(AnimationToolsTest, ImportAFolderAsOneCellOrAsMany) {
   EXPECT_EQ(project().cell_count(), 4U);
   EXPECT_EQ(refusal(R"({"op": "import", "folder": "empty"})"),
             "import: empty: there is no picture (.png, .jpg, .svg)");
+  EXPECT_NE(refusal(R"({"op": "import", "folder": "torn"})").find("torn/2.png"), std::string::npos);
+  EXPECT_EQ(note(R"({"op": "import", "folder": "torn", "skip": true})"), "left out: torn/2.png: is torn");
+  EXPECT_EQ(project().find("torn")->pictures, (std::vector<std::string>{"torn/1.png", "torn/10.png"}));
 }
 
 TEST_F(AnimationToolsTest, SwapPictures) {

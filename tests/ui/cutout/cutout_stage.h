@@ -1,6 +1,7 @@
 #pragma once
 #include <QCoreApplication>
 #include <QImage>
+#include <QLabel>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QTemporaryDir>
@@ -87,6 +88,20 @@ class CutoutStage : public ::testing::Test {
   void click(const animation::Vector2& at, Qt::KeyboardModifiers modifiers = {}) {
     send_mouse(stage(), QEvent::MouseButtonPress, on_screen(at), modifiers);
     send_mouse(stage(), QEvent::MouseButtonRelease, on_screen(at), modifiers);
+  }
+  bool is_told(const QString& words) const {
+    for (const QLabel* label : window_->findChildren<QLabel*>())
+      if (label->text().contains(words)) return true;
+    return false;
+  }
+  /// Files of unsaved animations and their journals that are kept for a crash.
+  int kept_files() const {
+    int count = 0;
+    std::error_code error;
+    for (std::filesystem::recursive_directory_iterator it(file("data"), error), end; !error && it != end;
+         it.increment(error))
+      if (it->is_regular_file()) ++count;
+    return count;
   }
   /// Lets the window live until something has come about.
   template <typename Come>

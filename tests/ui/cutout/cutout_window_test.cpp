@@ -1,5 +1,6 @@
 #include "ui/cutout/cutout_window.h"
 
+#include <QDockWidget>
 #include <QInputDialog>
 #include <QKeyEvent>
 #include <QLabel>
@@ -7,10 +8,14 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QStatusBar>
+#include <QTest>
+#include <QToolButton>
 #include <QTreeWidget>
 #include <fstream>
 
 #include "ui/cutout/cutout_stage.h"
+#include "ui/look/theme.h"
 
 namespace icome::ui {
 namespace {
@@ -20,11 +25,6 @@ class CutoutWindowTest : public CutoutStage {
   void key(QWidget& to, int code, const QString& text = {}, Qt::KeyboardModifiers modifiers = {}) {
     QKeyEvent event(QEvent::KeyPress, code, modifiers, text);
     QCoreApplication::sendEvent(&to, &event);
-  }
-  bool is_told(const QString& words) const {
-    for (const QLabel* label : window_->findChildren<QLabel*>())
-      if (label->text().contains(words)) return true;
-    return false;
   }
 };
 
@@ -98,6 +98,205 @@ TEST_F(CutoutWindowTest, ArrowKeysMoveByPixels) {
   key(stage(), Qt::Key_Up, {}, Qt::ShiftModifier);
   EXPECT_NEAR(shown("boat").place.x(), 641, 1e-9);
   EXPECT_NEAR(shown("boat").place.y(), 350, 1e-9);
+}
+
+TEST_F(CutoutWindowTest, AnArrowKeyThatIsHeldDownIsOneStepToUndo) {
+  add_cell("boat");
+  document().select({cell("boat").id});
+  key(stage(), Qt::Key_Down);
+  for (int i = 0; i < 3; ++i) {
+    QKeyEvent press(QEvent::KeyPress, Qt::Key_Right, {}, {}, i > 0);
+    QCoreApplication::sendEvent(&stage(), &press);
+  }
+  EXPECT_NEAR(shown("boat").place.x(), 643, 1e-9);
+  document().undo();
+  EXPECT_NEAR(shown("boat").place.x(), 640, 1e-9);
+  EXPECT_NEAR(shown("boat").place.y(), 361, 1e-9) << "another press is another step";
+  auto* const angle = window_->findChild<QLineEdit*>("cell.angle");
+  angle->setFocus();
+  for (int i = 0; i < 3; ++i) key(*angle, Qt::Key_Up);
+  EXPECT_GT(shown("boat").angle, 0.0);
+  document().undo();
+  EXPECT_NEAR(shown("boat").angle, 0.0, 1e-12);
+  EXPECT_NEAR(shown("boat").place.y(), 361, 1e-9);
+}
+
+TEST_F(CutoutWindowTest, UndoIsTheFieldsOwnOnlyUntilAValueIsEntered) {
+  add_cell("boat");
+  document().select({cell("boat").id});
+  auto* const angle = window_->findChild<QLineEdit*>("cell.angle");
+  angle->setFocus();
+  const auto field_takes_undo = [&] {
+    QKeyEvent event(QEvent::ShortcutOverride, Qt::Key_Z, Qt::ControlModifier);
+    event.ignore();
+    QCoreApplication::sendEvent(angle, &event);
+    return event.isAccepted();
+  };
+  angle->selectAll();
+  QTest::keyClicks(angle, "90");
+  EXPECT_TRUE(field_takes_undo());
+  key(*angle, Qt::Key_Return);
+  EXPECT_NEAR(shown("boat").angle, M_PI / 2, 1e-12);
+  EXPECT_FALSE(field_takes_undo());
+  QTest::keyClick(angle, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_NEAR(shown("boat").angle, 0.0, 1e-12);
+  EXPECT_TRUE(project().find("boat"));
+}
+
+TEST_F(CutoutWindowTest, CopiesAreSelectedAndLieBesideTheirCells) {
+  add_cell("boat");
+  add_cell("bird");
+  document().select({cell("boat").id});
+  document().go_to(5);
+  drag({640, 360}, {700, 330});
+  document().select({cell("boat").id, cell("bird").id});
+  action("cell.duplicate")->trigger();
+  ASSERT_EQ(project().cell_count(), 4U);
+  ASSERT_EQ(document().selection().size(), 2U);
+  for (const auto& [of, copy] :
+       {std::pair("boat", document().selection()[0]), std::pair("bird", document().selection()[1])}) {
+    EXPECT_NE(copy, cell(of).id);
+    for (const int frame : {0, 5, 9}) {
+      const animation::CellState one = animation::state_at(cell(of), frame);
+      const animation::CellState other = animation::state_at(*project().find(copy), frame);
+      EXPECT_NEAR(other.place.x() - one.place.x(), 12, 1e-9) << of << frame;
+      EXPECT_NEAR(other.place.y() - one.place.y(), 12, 1e-9) << of << frame;
+    }
+  }
+  document().undo();
+  EXPECT_EQ(project().cell_count(), 2U) << "one step";
+}
+
+TEST_F(CutoutWindowTest, ConstraintsAreToldByTheNamesOfTheirCells) {
+  add_cell("body", 200, 100, Qt::darkRed);
+  add_cell("arm", 100, 30);
+  document().select({cell("arm").id, cell("body").id});
+  action("cell.join")->trigger();
+  click({640, 360});
+  EXPECT_EQ(window_->statusBar()->currentMessage(), "arm hangs on body.");
+}
+
+TEST_F(CutoutWindowTest, TheTabKeyStaysOutOfPanelsThatAreNotSeen) {
+  add_cell("boat");
+  document().select({cell("boat").id});
+  ASSERT_TRUE(window_->table().visibleRegion().isEmpty());
+  stage().setFocus();
+  int passed = 0;
+  for (int i = 0; i < 200; ++i) {
+    QWidget* const focus = QApplication::focusWidget();
+    ASSERT_TRUE(focus);
+    ASSERT_FALSE(window_->table().isAncestorOf(focus)) << focus->objectName().toStdString();
+    if (focus->objectName() == "cell.angle") ++passed;
+    QTest::keyClick(focus, Qt::Key_Tab,
+                    focus->inherits("QPlainTextEdit") ? Qt::ControlModifier : Qt::NoModifier);
+  }
+  EXPECT_GT(passed, 0) << "it goes round through those that are seen";
+  window_->findChild<QDockWidget*>("dock.table")->raise();
+  QCoreApplication::processEvents();
+  EXPECT_TRUE(window_->findChild<QLineEdit*>("table.source")->isEnabled());
+}
+
+TEST_F(CutoutWindowTest, ItOpensNoLargerThanTheScreen) {
+  CutoutWindow window(folder_.filePath("settings.conf"));
+  window.show();
+  const QSize room = window.screen()->availableSize();
+  EXPECT_LE(window.height(), room.height());
+  EXPECT_LE(window.width(), std::max(room.width(), window.minimumSizeHint().width()));
+}
+
+TEST_F(CutoutWindowTest, ASmallButtonWithTheFocusHasARing) {
+  for (const Theme theme : {Theme::Dark, Theme::Light}) {
+    apply_theme(application(), theme);
+    auto* const button = window_->findChild<QToolButton*>("cells.add");
+    const auto ringed = [&] {
+      const QImage picture = button->grab().toImage();
+      int count = 0;
+      for (int x = 4; x < picture.width() - 4; ++x)
+        for (const int y : {0, 1, 2}) {
+          const QColor colour = picture.pixelColor(x, y);
+          const QColor accent = colours().accent;
+          if (std::abs(colour.red() - accent.red()) + std::abs(colour.green() - accent.green()) +
+                  std::abs(colour.blue() - accent.blue()) <
+              90) {
+            ++count;
+            break;
+          }
+        }
+      return double(count) / std::max(1, picture.width() - 8);
+    };
+    stage().setFocus();
+    EXPECT_LT(ringed(), 0.1);
+    button->setFocus();
+    EXPECT_GT(ringed(), 0.9);
+  }
+}
+
+TEST_F(CutoutWindowTest, ASecondWindowOfAFileStandsWarned) {
+  add_cell("boat");
+  ASSERT_TRUE(document().save(file("r.cutout")));
+  drag({640, 360}, {700, 300});
+  const animation::Project saved_in_file = animation::read_project_file(file("r.cutout"))->as_saved.value();
+  CutoutWindow second(folder_.filePath("second.conf"));
+  second.show();
+  second.open(file("r.cutout"));
+  EXPECT_EQ(second.document().project(), saved_in_file) << "what the first has not saved is its own";
+  EXPECT_FALSE(second.isWindowModified());
+  QCoreApplication::processEvents();
+  QStringList told;
+  for (const QLabel* label : second.findChildren<QLabel*>())
+    if (label->isVisible()) told << label->text();
+  EXPECT_TRUE(
+      told.contains("r.cutout is open in another window already. What is done here is not kept "
+                    "against a crash, and saving asks first."))
+      << told.join("\n").toStdString();
+  second.close();
+  window_.reset();
+  open_window();
+  window_->open(file("r.cutout"));
+  EXPECT_TRUE(window_->isWindowModified()) << "the journal of the first was left to it";
+}
+
+TEST_F(CutoutWindowTest, WorkThatIsRecoveredIsToldWithTheNumberOfItsEdits) {
+  add_cell("boat");
+  ASSERT_TRUE(document().save(file("trip.cutout")));
+  drag({640, 360}, {700, 300});
+  drag({700, 300}, {720, 300});
+  window_.reset();  // without being closed
+  open_window();
+  window_->open(file("trip.cutout"));
+  EXPECT_TRUE(is_told("2 edits of trip.cutout were not saved when the program ended."));
+  document().undo();
+  EXPECT_TRUE(is_told("2 edits of trip.cutout"));
+  action("file.save")->trigger();
+  QCoreApplication::processEvents();
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  EXPECT_FALSE(is_told("2 edits of trip.cutout"));
+}
+
+TEST_F(CutoutWindowTest, WhatIsTypedWhenTheWindowIsClosedIsAskedForAndLeavesNothingBehind) {
+  add_cell("boat");
+  ASSERT_TRUE(document().save(file("trip.cutout")));
+  document().select({cell("boat").id});
+  auto* const angle = window_->findChild<QLineEdit*>("cell.angle");
+  angle->setFocus();
+  QTest::keyClicks(angle, "90");
+  window_->close();
+  auto* const box = window_->findChild<QMessageBox*>("cutout.save_changes");
+  ASSERT_TRUE(box) << "what was typed would be lost";
+  box->button(QMessageBox::Discard)->click();
+  EXPECT_FALSE(window_->isVisible());
+  EXPECT_FALSE(std::filesystem::exists(animation::journal_of(file("trip.cutout"))));
+  window_.reset();
+  EXPECT_EQ(kept_files(), 0);
+}
+
+TEST_F(CutoutWindowTest, AnAnimationThatIsSavedIsNoLongerKeptAsUnsaved) {
+  add_cell("boat");
+  EXPECT_EQ(kept_files(), 2);
+  ASSERT_TRUE(document().save(file("trip.cutout")));
+  EXPECT_EQ(kept_files(), 0);
+  drag({640, 360}, {700, 300});
+  EXPECT_EQ(kept_files(), 0);
 }
 
 /// Parts that are drawn anew make the picture that is drawn whole.

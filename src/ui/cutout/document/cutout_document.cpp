@@ -23,8 +23,6 @@ using animation::Layer;
 using animation::Project;
 using animation::ProjectEdit;
 
-/// Pictures may lie beside the project's folder, but names do not climb further than this.
-
 fs::path folder_of_unsaved() {
   return path_of(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation)) / "unsaved-animations";
 }
@@ -74,23 +72,30 @@ void CutoutDocument::take(Project project, const fs::path& folder) {
 
 /// An edit that cannot be written down is done anyway: a full disk must not keep a person from working on.
 base::Result<void> CutoutDocument::write_down(const ProjectEdit& edit) {
-  if (!journal_ && file_.empty() && kept_.empty()) keep_for_recovery();
+  if (!journal_ && !closed_ && file_.empty() && kept_.empty()) keep_for_recovery();
   if (!journal_) return {};
   const auto added = journal_->add(edit);
   if (!added && !std::exchange(told_journal_, true))
-    remark_(fmt::format("{} What you do is no longer safe from a crash: save it.", added.error().message));
+    risk_(fmt::format("{} What you do is no longer safe from a crash: save it.", added.error().message));
   return {};
 }
 
 void CutoutDocument::begin_journal(std::uint64_t length) {
   journal_.reset();
-  auto journal = animation::ProjectJournal::open(file_.empty() ? kept_ : file_, length);
+  const fs::path& file = file_.empty() ? kept_ : file_;
+  const bool is_elsewhere = animation::ProjectJournal::is_open(file);
+  auto journal = animation::ProjectJournal::open(file, length);
+  told_journal_ = !journal;
   if (journal) {
     journal_.emplace(std::move(*journal));
-    return;
+    return risk_({});
   }
-  told_journal_ = true;
-  remark_(fmt::format("{} What you do is not safe from a crash: save it often.", journal.error().message));
+  if (is_elsewhere)
+    return risk_(
+        fmt::format("{} is open in another window already. What is done here is not kept against a "
+                    "crash, and saving asks first.",
+                    file.filename().string()));
+  risk_(fmt::format("{} What you do is not safe from a crash: save it often.", journal.error().message));
 }
 
 /// Gives an animation without a file a place where it outlives a crash.
@@ -161,6 +166,7 @@ void CutoutDocument::take_down(const std::vector<animation::Hold>& holds) {
 void CutoutDocument::begin_recording(std::optional<animation::LayerId> layer) {
   give_up();
   recording_.emplace(project(), layer);
+  changed_(CutoutChange::Frame);
 }
 
 void CutoutDocument::end_recording(double tolerance) {
@@ -211,9 +217,14 @@ void CutoutDocument::finish() {
   changed_(CutoutChange::Project);
 }
 
-bool CutoutDocument::perform(const interaction::Value& command) {
-  const auto done = runner_->perform(command);
+base::Result<std::string> CutoutDocument::attempt(const interaction::Value& command) {
+  auto done = runner_->perform(command);
   finish();
+  return done;
+}
+
+bool CutoutDocument::perform(const interaction::Value& command) {
+  const auto done = attempt(command);
   remark_(done ? *done : done.error().message);
   return done.has_value();
 }
@@ -243,17 +254,29 @@ std::string CutoutDocument::name_in_project(const fs::path& file) const {
 
 bool CutoutDocument::is_modified() const { return !(saved_ == project()); }
 
-base::Result<std::string> CutoutDocument::open(fs::path file) {
+bool CutoutDocument::is_own(const fs::path& file) const {
+  std::error_code error;
+  return !file_.empty() && (file == file_ || fs::equivalent(file, file_, error));
+}
+
+base::Result<CutoutDocument::Opened> CutoutDocument::open(fs::path file) {
   auto read = animation::read_project_file(file);
   if (!read) return tl::unexpected(read.error());
+  const bool leaves_journal = is_own(file) || animation::ProjectJournal::is_open(file);
+  if (leaves_journal) {
+    if (read->as_saved) read->project = *std::exchange(read->as_saved, std::nullopt);
+    read->recovered = read->journal_length = 0;
+    read->note.clear();
+  }
   close();
   const fs::path folder = fs::absolute(file).parent_path();
   take(std::move(read->project), folder);
-  if (read->recovered > 0) saved_ = Project();
+  if (read->as_saved) saved_ = std::move(*read->as_saved);
   file_ = std::move(file);
+  hash_ = read->hash;
   begin_journal(read->journal_length);
   changed_(CutoutChange::Project);
-  return std::move(read->note);
+  return Opened{std::move(read->note), read->recovered};
 }
 
 base::Result<void> CutoutDocument::recover(const fs::path& kept) {
@@ -268,6 +291,17 @@ base::Result<void> CutoutDocument::recover(const fs::path& kept) {
   return {};
 }
 
+std::string CutoutDocument::reason_not_to_write(const fs::path& file) const {
+  const std::string name = file.filename().string();
+  std::error_code error;
+  if (is_own(file) && fs::exists(file, error) && animation::hash_of_file(file) != hash_)
+    return fmt::format("{} was changed by another program since it was opened or saved here.", name);
+  const bool has_journal = journal_ && is_own(file);
+  if (!has_journal && animation::ProjectJournal::is_open(file))
+    return fmt::format("{} is open in another window, too.", name);
+  return {};
+}
+
 base::Result<void> CutoutDocument::save(fs::path file) {
   const fs::path folder = fs::absolute(file).parent_path();
   const ProjectEdit names = animation::renamed_files(this->project(), this->folder(), folder);
@@ -277,7 +311,10 @@ base::Result<void> CutoutDocument::save(fs::path file) {
   auto written = animation::write_project_file(project, file);
   if (!written) return written;
   const bool had_file = !file_.empty();
+  const std::uint64_t hash = animation::hash_of_text(animation::project_text(project));
   close();
+  file_ = std::move(file);  // before anything is done, which would be kept for a crash without it
+  hash_ = hash;
   if (had_file && !names.empty()) {
     // Earlier steps had other names, and undoing them would bring these back.
     const int frame = frame_;
@@ -288,7 +325,6 @@ base::Result<void> CutoutDocument::save(fs::path file) {
     if (!names.empty()) (void)runner_->perform(names);
     saved_ = std::move(project);
   }
-  file_ = std::move(file);
   begin_journal(0);
   finish();
   return {};
@@ -303,6 +339,11 @@ void CutoutDocument::close() {
   }
   kept_.clear();
   file_.clear();
+}
+
+void CutoutDocument::close_for_good() {
+  close();
+  closed_ = true;
 }
 
 interaction::Value cutout_command(const char* tool, interaction::Value::Fields fields) {

@@ -69,6 +69,7 @@ class CutoutDocument {
   const std::optional<CellStates>& tried() const { return tried_; }
 
   /// Takes down what is tried out at each frame, of one layer or, where it is none, of all.
+  /// Hands that hold cells hear of it as of another frame, so that these are held from the first frame on.
   void begin_recording(std::optional<animation::LayerId> layer);
   bool is_recording() const { return recording_.has_value(); }
   /// Puts what was taken down into the animation, as one step to undo. Keys that make less of a difference
@@ -77,6 +78,8 @@ class CutoutDocument {
 
   /// Uses a tool, as a line of a script does. Remarks and refusals are told; false: it was refused.
   bool perform(const interaction::Value& command);
+  /// Likewise, but tells nothing: gives a note for people, mostly empty, or why it was refused.
+  base::Result<std::string> attempt(const interaction::Value& command);
   /// Applies an edit as one step to undo; an empty one is none. Refusals are told; false: it was refused.
   bool perform(const animation::ProjectEdit& edit);
   /// All that `work` performs is one step to undo.
@@ -85,6 +88,9 @@ class CutoutDocument {
   bool can_redo() const { return runner_->can_redo(); }
   void undo();
   void redo();
+  /// Steps that can be undone, and those after the first `before` ones made one, as of a key that is held.
+  std::size_t steps() const { return runner_->steps(); }
+  void join_steps(std::size_t before) { runner_->join_steps(before); }
   /// Numbers for new layers, cells and constraints of one edit.
   std::uint64_t next_id() const { return project().next_id; }
 
@@ -95,25 +101,40 @@ class CutoutDocument {
 
   const std::filesystem::path& file() const { return file_; }
   bool is_modified() const;
-  /// Replaces the project by a file's, with what its journal adds. Gives a note on that, mostly empty.
-  base::Result<std::string> open(std::filesystem::path file);
+  /// What came of opening a file.
+  struct Opened {
+    std::string note;           // about the journal, for people; mostly empty
+    std::size_t recovered = 0;  // edits that were not saved, and were taken up again
+  };
+  /// Replaces the project by a file's, with what its journal adds after a crash: not that of another window
+  /// in which the file is open, nor one of this window itself, whose work is given up.
+  base::Result<Opened> open(std::filesystem::path file);
   /// Takes an unsaved animation from where it was kept for a crash, as one without a file.
   base::Result<void> recover(const std::filesystem::path& kept);
+  /// Why writing to a file could take away the work of others, as a sentence: it is not as it was read or
+  /// saved here, or it is open in another window. Empty: it could not.
+  std::string reason_not_to_write(const std::filesystem::path& file) const;
   /// Writes the project; the file is then the document's own, and names of pictures count from its folder.
   base::Result<void> save(std::filesystem::path file);
   /// Ends the journal: all is saved, or given up.
   void close();
+  /// Likewise, for the last time: nothing is kept for a crash any more.
+  void close_for_good();
 
   void on_change(std::function<void(CutoutChange)> change) { changed_ = std::move(change); }
   /// Hears what a tool remarks, or why something was refused.
   void on_remark(std::function<void(const std::string&)> remark) { remark_ = std::move(remark); }
   void remark(const std::string& text) const { remark_(text); }
+  /// Hears why what is done is not safe from a crash, which matters until it is read; an empty text when it
+  /// is safe again.
+  void on_risk(std::function<void(const std::string&)> risk) { risk_ = std::move(risk); }
 
  private:
   void use_folder(const std::filesystem::path& folder);
   void take(animation::Project project, const std::filesystem::path& folder);
   base::Result<void> write_down(const animation::ProjectEdit& edit);
   void begin_journal(std::uint64_t length);
+  bool is_own(const std::filesystem::path& file) const;
   void keep_for_recovery();
   void take_down(const std::vector<animation::Hold>& holds);
   void forget_gone();
@@ -126,7 +147,9 @@ class CutoutDocument {
   std::optional<animation::ProjectJournal> journal_;
   std::filesystem::path kept_;  // the stand-in for a file while there is none; empty: not kept yet
   bool told_journal_ = false;   // a person knows that it cannot be written
+  bool closed_ = false;         // for good
   std::filesystem::path file_;  // empty: it has none
+  std::uint64_t hash_ = 0;      // of the file's text, as it was read or saved last
   int frame_ = 0;
   std::vector<CellId> selection_;
   KeyPlaces keys_;
@@ -135,6 +158,7 @@ class CutoutDocument {
   std::optional<animation::Recording> recording_;
   std::function<void(CutoutChange)> changed_ = [](CutoutChange) {};
   std::function<void(const std::string&)> remark_ = [](const std::string&) {};
+  std::function<void(const std::string&)> risk_ = [](const std::string&) {};
 };
 
 /// A command of these fields: cutout_command("join", {{"parent", ...}}).

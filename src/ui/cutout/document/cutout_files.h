@@ -47,20 +47,30 @@ class CutoutFiles {
   /// Asks for a folder, and makes one cell of its pictures, one after the other, or a cell of each.
   void choose_folder(bool one_cell);
   void choose_sound();
+  /// Lets the animation have a sound, unless it cannot be read, which is told.
+  void use_sound(const std::filesystem::path& file);
+  /// Makes a cell of each picture, or one cell of all. Those that cannot be read are left out, and told.
+  void add_cells(const std::vector<std::filesystem::path>& files, bool one_cell);
+  /// Makes cells of the pictures of a folder likewise.
+  void import_folder(const std::filesystem::path& folder, bool one_cell);
   /// Makes cells of pictures, folders and animations that were dropped; opens an animation among them.
   void take_dropped(const std::vector<std::filesystem::path>& files);
 
   /// Asks where to, and writes a film or pictures while the window lives on.
   void choose_and_export(const animation::ExportOptions& options);
   void export_to(const std::string& out, const animation::ExportOptions& options);
+  /// Likewise, but asks first where pictures of a sequence would be written over others.
+  void export_if_agreed(const std::string& out, const animation::ExportOptions& options);
   void cancel_export();
   bool is_exporting() const { return bool(job_); }
 
  private:
   void save_to(std::filesystem::path file);
+  void save_if_agreed(const std::filesystem::path& file);
   void fail(const std::string& why);
+  std::vector<std::string> readable_of(const std::vector<std::filesystem::path>& files);
+  void tell_left_out(const std::vector<std::string>& problems, std::size_t all);
   void tell_exported(const base::Result<animation::ExportReport>& report);
-  void add_cells(const std::vector<std::filesystem::path>& files, bool one_cell);
 
   CutoutDocument& document_;
   QWidget& window_;
@@ -72,7 +82,14 @@ class CutoutFiles {
   std::unique_ptr<ExportJob> job_;
 };
 
+/// The topic of the note that work was recovered, which is void once it is saved.
+inline constexpr const char* kRecoveredTopic = "recovered";
+
 /// The filters of a dialog that opens animations.
 QStringList cutout_open_filters();
+
+/// The file, pattern or folder that a typed name means as the export's: frames of PNG and SVG get a number in
+/// their names where they have none.
+QString export_name(const QString& typed);
 
 }  // namespace icome::ui

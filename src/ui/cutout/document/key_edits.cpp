@@ -218,6 +218,22 @@ ProjectEdit one_key(const Project& project, CellId cell, Channel channel, int fr
   return bench.edit();
 }
 
+ProjectEdit shifted_cell(const Project& project, CellId cell, const base::Vector2& by) {
+  const Cell* const it = project.find(cell);
+  if (it == nullptr) return {};
+  animation::CellLook look = animation::look_of(*it);
+  look.rest.place += by;
+  ProjectEdit edit;
+  edit.emplace_back(animation::ChangeCell{cell, std::move(look)});
+  for (const auto& [channel, way] : {std::pair(Channel::X, by.x()), std::pair(Channel::Y, by.y())}) {
+    const Track& old = it->tracks[std::size_t(channel)];
+    Track track = old;
+    for (Key& key : track) key.value += way;
+    if (const auto change = track_change(cell, channel, old, track)) edit.emplace_back(*change);
+  }
+  return edit;
+}
+
 KeyPlaces keys_at(const Project& project, const std::vector<CellId>& cells, int frame) {
   KeyPlaces places;
   each_key(project, cells, [&](const Cell& cell, Channel channel, const Key& key) {

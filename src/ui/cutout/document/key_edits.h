@@ -59,6 +59,9 @@ animation::ProjectEdit held_keys(const animation::Project& project, const std::v
 animation::ProjectEdit one_key(const animation::Project& project, CellId cell, Channel channel, int frame,
                                double value);
 
+/// A cell lain elsewhere by so many px at all frames.
+animation::ProjectEdit shifted_cell(const animation::Project& project, CellId cell, const base::Vector2& by);
+
 /// All keys at that frame of some cells; of all cells where none is named.
 KeyPlaces keys_at(const animation::Project& project, const std::vector<CellId>& cells, int frame);
 /// The next frame with a key after `frame`, or the last before it; nothing where there is none.

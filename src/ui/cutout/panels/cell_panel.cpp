@@ -77,16 +77,24 @@ QuantityField* CellPanel::add_field(Quantity quantity, const char* name, const Q
 }
 
 void CellPanel::set_channel_of(QuantityField& field, Channel channel) {
-  field.on_commit([this, channel](std::optional<double> value, bool) -> base::Result<void> {
+  field.on_commit([this, channel](std::optional<double> value, bool more) -> base::Result<void> {
     if (!value) return base::fail("A number is needed.");
-    return set_value(channel, *value);
+    return set_in_step(more, [&] { return set_value(channel, *value); });
   });
 }
 
+/// Further steps of the same turn are one step to undo.
+base::Result<void> CellPanel::set_in_step(bool more, const std::function<base::Result<void>()>& set) {
+  if (!more || document_.steps() != steps_before_ + 1) steps_before_ = document_.steps();
+  auto done = set();
+  document_.join_steps(steps_before_);
+  return done;
+}
+
 void CellPanel::set_pivot_of(QuantityField& field, bool across) {
-  field.on_commit([this, across](std::optional<double> value, bool) -> base::Result<void> {
+  field.on_commit([this, across](std::optional<double> value, bool more) -> base::Result<void> {
     if (!value) return base::fail("A number is needed.");
-    return set_pivot(across, *value);
+    return set_in_step(more, [&] { return set_pivot(across, *value); });
   });
 }
 

@@ -84,6 +84,13 @@ std::optional<std::pair<std::string, std::string>> ConstraintMaker::two_names(co
                    document_.project().find(selection[1])->name);
 }
 
+/// Tells in words what was made.
+void ConstraintMaker::make(const interaction::Value& command) {
+  if (!document_.perform(command)) return;
+  const Constraint& made = document_.project().constraints.back();
+  document_.remark(constraint_words(document_.project(), made).toStdString() + ".");
+}
+
 void ConstraintMaker::join() {
   const auto names =
       two_names("Select two cells: first the one that hangs, then (Shift) the one that carries it.");
@@ -91,10 +98,10 @@ void ConstraintMaker::join() {
   stage_.ask_places(
       QString("Click where %1 hangs on %2").arg(one_line(names->first), one_line(names->second)), 1, 1,
       [=, this](const std::vector<Vector2>& places) {
-        document_.perform(cutout_command("join", {{"parent", names->second},
-                                                  {"child", names->first},
-                                                  {"at", command_point(places[0])},
-                                                  {"frame", document_.frame()}}));
+        make(cutout_command("join", {{"parent", names->second},
+                                     {"child", names->first},
+                                     {"at", command_point(places[0])},
+                                     {"frame", document_.frame()}}));
       });
 }
 
@@ -112,25 +119,24 @@ void ConstraintMaker::chain() {
   }
   if (names.size() < 2)
     return document_.remark("A chain needs joints: join the cell to the one that carries it first.");
-  document_.perform(cutout_command("chain", {{"cells", command_texts(names)}}));
+  make(cutout_command("chain", {{"cells", command_texts(names)}}));
 }
 
 void ConstraintMaker::keep_distance() {
   const auto names = two_names("Select the two cells whose distance is to be kept.");
   if (!names) return;
-  stage_.ask_places(
-      QString("Click on the place of %1, then on that of %2, whose distance is kept")
-          .arg(one_line(names->first), one_line(names->second)),
-      2, 2, [=, this](const std::vector<Vector2>& places) {
-        const double apart = (places[1] - places[0]).norm();
-        document_.perform(cutout_command("limit-distance", {{"one", names->first},
-                                                            {"other", names->second},
-                                                            {"least", apart},
-                                                            {"greatest", apart},
-                                                            {"at_one", command_point(places[0])},
-                                                            {"at_other", command_point(places[1])},
-                                                            {"frame", document_.frame()}}));
-      });
+  stage_.ask_places(QString("Click on the place of %1, then on that of %2, whose distance is kept")
+                        .arg(one_line(names->first), one_line(names->second)),
+                    2, 2, [=, this](const std::vector<Vector2>& places) {
+                      const double apart = (places[1] - places[0]).norm();
+                      make(cutout_command("limit-distance", {{"one", names->first},
+                                                             {"other", names->second},
+                                                             {"least", apart},
+                                                             {"greatest", apart},
+                                                             {"at_one", command_point(places[0])},
+                                                             {"at_other", command_point(places[1])},
+                                                             {"frame", document_.frame()}}));
+                    });
 }
 
 void ConstraintMaker::guide_by_path(bool turns) {
@@ -141,21 +147,21 @@ void ConstraintMaker::guide_by_path(bool turns) {
       [=, this, name = cell->name](const std::vector<Vector2>& places) {
         interaction::Value::List way;
         for (const Vector2& place : places) way.push_back(command_point(place));
-        document_.perform(cutout_command(
-            "path", {{"cell", name}, {"way", way}, {"turns", turns}, {"frame", document_.frame()}}));
+        make(cutout_command("path",
+                            {{"cell", name}, {"way", way}, {"turns", turns}, {"frame", document_.frame()}}));
       });
 }
 
 void ConstraintMaker::guide_by_axis() {
   const Cell* const cell = leading_paper("Select the cell that is to stay on an axis.");
   if (cell == nullptr) return;
-  stage_.ask_places("Click on two places: the axis goes through the cell in that direction", 2, 2,
-                    [=, this, name = cell->name](const std::vector<Vector2>& places) {
-                      const Vector2 way = places[1] - places[0];
-                      const double angle = kDegreesOfRadian * std::atan2(-way.y(), way.x());
-                      document_.perform(cutout_command(
-                          "axis", {{"cell", name}, {"direction", angle}, {"frame", document_.frame()}}));
-                    });
+  stage_.ask_places(
+      "Click on two places: the axis goes through the cell in that direction", 2, 2,
+      [=, this, name = cell->name](const std::vector<Vector2>& places) {
+        const Vector2 way = places[1] - places[0];
+        const double angle = kDegreesOfRadian * std::atan2(-way.y(), way.x());
+        make(cutout_command("axis", {{"cell", name}, {"direction", angle}, {"frame", document_.frame()}}));
+      });
 }
 
 void ConstraintMaker::release() {

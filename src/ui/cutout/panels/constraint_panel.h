@@ -30,6 +30,7 @@ class ConstraintMaker {
   void release();
 
  private:
+  void make(const interaction::Value& command);
   /// The leading cell, where it is paper; else says what is needed, and gives null.
   const animation::Cell* leading_paper(const char* need) const;
   /// The first and the last of two that are selected; else says so.

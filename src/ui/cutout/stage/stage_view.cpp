@@ -95,6 +95,8 @@ void StageView::refresh() {
 }
 
 void StageView::follow_frame() {
+  // While it is recorded, cells that are held without being moved are held, too.
+  if (contact_ == Contact::Press && document_.is_recording()) contact_ = Contact::Drag;
   // A drag goes on from frame to frame while the animation runs.
   if (contact_ == Contact::Drag && !pivot_) drag_to(last_, strict_);
   show_moved();
@@ -433,6 +435,9 @@ void StageView::press(QPointF at, Qt::KeyboardModifiers modifiers) {
   contact_ = Contact::Press;
   drag_frame_ = document_.frame();
   drag_ = begin_drag(document_, is_handle ? grip : StageGrip::Move, on_stage(at));
+  if (!document_.is_recording() || drag_.grip == StageGrip::Pivot) return;
+  contact_ = Contact::Drag;
+  drag_to(at, false);
 }
 
 void StageView::drag_to(QPointF at, bool strict) {
@@ -547,8 +552,12 @@ bool StageView::nudge(const QKeyEvent& event) {
   if (event.key() == Qt::Key_Up) by.y() = -step;
   if (event.key() == Qt::Key_Down) by.y() = step;
   if (by.isZero() || document_.selection().empty() || contact_ != Contact::None) return false;
+  // A key that is held down is one step to undo, as long as nothing else is done meanwhile.
+  const bool goes_on = event.isAutoRepeat() && document_.steps() == steps_before_nudge_ + 1;
+  if (!goes_on) steps_before_nudge_ = document_.steps();
   document_.try_out(nudged(document_, by));
   document_.keep();
+  document_.join_steps(steps_before_nudge_);
   return true;
 }
 
@@ -566,15 +575,16 @@ void StageView::keyPressEvent(QKeyEvent* event) {
   if (!nudge(*event)) QWidget::keyPressEvent(event);
 }
 
+void StageView::let_go() {
+  contact_ = Contact::None;
+  pivot_.reset();
+  document_.give_up();
+  update();
+}
+
 void StageView::back_out() {
   if (is_asking()) return end_question(false);
-  if (contact_ != Contact::None) {
-    contact_ = Contact::None;
-    pivot_.reset();
-    document_.give_up();
-    update();
-    return;
-  }
+  if (contact_ != Contact::None) return let_go();
   if (document_.tried()) return document_.give_up();
   document_.select({});
 }

@@ -27,6 +27,8 @@ class StageView final : public QWidget {
   void zoom(double factor);  // about the middle
   const StageScale& scale() const { return scale_; }
   animation::Affine2 screen_from_stage() const;
+  /// Ends holding cells, which stay as their keys have them.
+  void let_go();
   /// Backs out of a drag, of places that are asked for, else of the selection.
   void back_out();
 
@@ -105,7 +107,8 @@ class StageView final : public QWidget {
       animation::Affine2::Identity();  // pixels of the picture from px of the stage
   Contact contact_ = Contact::None;
   StageDrag drag_;
-  int drag_frame_ = 0;  // the animation's, in which it began
+  int drag_frame_ = 0;                  // the animation's, in which it began
+  std::size_t steps_before_nudge_ = 0;  // of undo, before a key was pressed that moves cells
   QPointF pressed_, last_;
   bool strict_ = false;  // a drag goes along one axis, or in steps of an angle
   StageGrip under_ = StageGrip::None;

@@ -30,6 +30,7 @@ base::Result<void> TableFollower::start(const TableSettings& settings) {
   stop();
   if (settings.source.empty())
     return base::fail("Say where the frames come from: camera, a folder, a video.");
+  if (settings.known.empty()) return base::fail("Choose the list of known triangles first.");
   auto known = cutout::read_known_triangles(settings.known);
   if (!known) return tl::unexpected(known.error());
   view_.reset();

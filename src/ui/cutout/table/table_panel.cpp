@@ -113,7 +113,10 @@ QLineEdit* TablePanel::add_text(const char* name, const QString& accessible, con
   field->setObjectName(name);
   field->setAccessibleName(accessible);
   field->setPlaceholderText(hint);
-  connect(field, &QLineEdit::editingFinished, this, [this] { keep_settings(); });
+  connect(field, &QLineEdit::editingFinished, this, [=, this] {
+    field->setText(field->text());  // what was entered is not undone letter by letter
+    keep_settings();
+  });
   return field;
 }
 

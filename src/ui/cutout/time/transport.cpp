@@ -44,11 +44,10 @@ void Transport::play() {
 
 void Transport::record(std::optional<animation::LayerId> layer) {
   if (!is_still()) stop();
-  document_.begin_recording(layer);
-  start(count_in_ > 0 ? State::CountIn : State::Recording, count_in_);
+  start(count_in_ > 0 ? State::CountIn : State::Recording, count_in_, layer);
 }
 
-void Transport::start(State state, int beats) {
+void Transport::start(State state, int beats, std::optional<animation::LayerId> recorded) {
   const animation::Stage& stage = document_.project().stage;
   const int last = document_.last_frame();
   // From the last frame it goes on with the first.
@@ -67,6 +66,7 @@ void Transport::start(State state, int beats) {
   started_ = clock_() + count_in_seconds(plan_);
   latest_ = -count_in_seconds(plan_);
   document_.go_to(from);
+  if (records) document_.begin_recording(recorded);
   start_sound();
   timer_.start();
   set_state(state);

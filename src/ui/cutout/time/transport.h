@@ -55,7 +55,7 @@ class Transport {
   void tick();
 
  private:
-  void start(State state, int beats);
+  void start(State state, int beats, std::optional<animation::LayerId> recorded = std::nullopt);
   void start_sound();
   double seconds() const;
   void set_state(State state);

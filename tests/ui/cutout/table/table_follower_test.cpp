@@ -71,6 +71,10 @@ TEST_F(TableTest, AListThatIsMissingIsToldAtOnceAndASourceLater) {
   const auto started = follower.start(wrong);
   ASSERT_FALSE(started);
   EXPECT_NE(started.error().message.find("nothing.toml"), std::string::npos);
+  wrong.known.clear();
+  const auto unnamed = follower.start(wrong);
+  ASSERT_FALSE(unnamed);
+  EXPECT_EQ(unnamed.error().message, "Choose the list of known triangles first.");
   TableSettings nowhere = settings();
   nowhere.source = file("no-folder").string();
   ASSERT_TRUE(follower.start(nowhere));

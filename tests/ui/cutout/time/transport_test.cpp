@@ -1,5 +1,6 @@
 #include "ui/cutout/time/transport.h"
 
+#include <QTest>
 #include <atomic>
 #include <cmath>
 #include <mutex>
@@ -166,6 +167,68 @@ TEST_F(TransportTest, ADragGoesOnFromFrameToFrameWhileItIsRecorded) {
   transport().stop();
   EXPECT_NEAR(animation::state_at(cell("boat"), 10).place.x(), 750, 1.0);
   EXPECT_NEAR(animation::state_at(cell("boat"), 5).place.x(), 700, 6.0);
+}
+
+/// Its old keys do not draw it along below the hand.
+TEST_F(TransportTest, ACellThatIsHeldStillWhileItIsRecordedStays) {
+  set_length(100);
+  const CellId boat = cell("boat").id;
+  for (const int frame : {0, 50})
+    ASSERT_TRUE(document().perform(one_key(project(), boat, Channel::X, frame, 600.0 + 10 * frame)));
+  transport().set_count_in(0);
+  transport().record(std::nullopt);
+  pass(0.001);
+  for (int frame = 0; frame < 4; ++frame) pass(0.04);
+  ASSERT_EQ(document().frame(), 4);
+  send_mouse(stage(), QEvent::MouseButtonPress, on_screen({640, 360}));
+  for (int frame = 4; frame < 10; ++frame) {
+    pass(0.04);
+    EXPECT_NEAR(shown("boat").place.x(), 640, 1e-6) << document().frame();
+  }
+  send_mouse(stage(), QEvent::MouseButtonRelease, on_screen({640, 360}));
+  pass(0.04);
+  transport().stop();
+  for (int frame = 4; frame <= 10; ++frame)
+    EXPECT_NEAR(animation::state_at(cell("boat"), frame).place.x(), 640, 0.3) << frame;
+  EXPECT_NEAR(animation::state_at(cell("boat"), 2).place.x(), 620, 1e-6);
+  EXPECT_NEAR(animation::state_at(cell("boat"), 12).place.x(), 720, 1e-6);
+}
+
+TEST_F(TransportTest, ACellThatIsHeldBeforeTheRecordingBeginsIsHeldFromItsFirstFrame) {
+  set_length(100);
+  const CellId boat = cell("boat").id;
+  for (const int frame : {0, 50})
+    ASSERT_TRUE(document().perform(one_key(project(), boat, Channel::X, frame, 600.0 + 10 * frame)));
+  send_mouse(stage(), QEvent::MouseButtonPress, on_screen({600, 360}));
+  transport().set_count_in(0);
+  transport().record(std::nullopt);
+  pass(0.001);
+  for (int frame = 0; frame < 5; ++frame) pass(0.04);
+  action("frame.stop")->trigger();
+  EXPECT_TRUE(transport().is_still());
+  send_mouse(stage(), QEvent::MouseButtonRelease, on_screen({600, 360}));
+  for (int frame = 0; frame <= 5; ++frame)
+    EXPECT_NEAR(animation::state_at(cell("boat"), frame).place.x(), 600, 0.3) << frame;
+  EXPECT_NEAR(animation::state_at(cell("boat"), 7).place.x(), 670, 1e-6);
+}
+
+TEST_F(TransportTest, EscapeStopsPlayingAndRecording) {
+  set_length(100);
+  EXPECT_EQ(action("frame.stop")->shortcut(), QKeySequence("Esc"));
+  EXPECT_FALSE(action("frame.stop")->isEnabled()) << "else Esc backs out";
+  const auto stops = [&] {
+    pass(0.05);
+    QTest::keyClick(&stage(), Qt::Key_Escape);
+    return transport().is_still();
+  };
+  document().select({cell("boat").id});
+  transport().play();
+  EXPECT_TRUE(stops());
+  transport().set_count_in(4);
+  transport().record(std::nullopt);
+  EXPECT_TRUE(stops());
+  EXPECT_FALSE(document().is_recording());
+  EXPECT_FALSE(document().selection().empty()) << "nothing else was backed out of";
 }
 
 TEST_F(TransportTest, ThePictureFollowsWhatIsHeard) {
