@@ -70,7 +70,7 @@ class DesktopMenuTest(DesktopTest):
             desktop.quit()
             self.assertEqual(desktop.wait_end(), 0)
         self.assertEqual(len(saved), 1, saved)
-        self.assertIn("polygon", saved.pop())
+        self.assertIn("pyramid", saved.pop())
 
     def test_digits_are_typed_into_a_number(self):
         desktop = self.start("--menu", PROPERTIES, "--theme", "dark", DEMO).open()

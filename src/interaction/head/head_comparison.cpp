@@ -18,7 +18,7 @@ constexpr double kStillShare = 0.05;      // of the stretches
 constexpr std::size_t kLeastSamples = 8;  // in a stretch: a line leaves fewer nothing to deviate by
 constexpr double kMostAhead = 0.4, kMostBehind = 0.6;  // s, of shifts that are tried
 
-double turn_between(const Quaternion& one, const Quaternion& other) { return one.angularDistance(other); }
+double angle_between_turns(const Quaternion& one, const Quaternion& other) { return one.angularDistance(other); }
 
 /// The poses of a recording between two of its samples; time goes forward from call to call of the same
 /// shift, so that a place is found from the last one.
@@ -214,7 +214,7 @@ std::vector<HeadFilterScore> compare_head_filters(std::span<const HeadSample> sa
     double place = 0.0, turn = 0.0;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       place += (poses[i].place - raw[i].place).squaredNorm() / double(poses.size());
-      const double angle = turn_between(poses[i].rotation, raw[i].rotation);
+      const double angle = angle_between_turns(poses[i].rotation, raw[i].rotation);
       turn += angle * angle / double(poses.size());
     }
     score.behind_place = std::sqrt(place);
