@@ -110,8 +110,8 @@ class CutoutWindowTest(DesktopTest):
             time.sleep(0.3)
             return before is not None and self.square(desktop) == before
         wait_for("a square that stands", stands)
-        desktop.key("End")
         stopped = self.square(desktop)[0]
+        desktop.key("End")
         wait_for("the last frame", lambda: (self.square(desktop) or (stopped,))[0] > stopped)
         desktop.quit()
         self.assertEqual(desktop.wait_end(), 0, desktop.printed())
