@@ -113,7 +113,8 @@ void SceneTools::double_click(const SceneInput& input) {
 }
 
 void SceneTools::wheel(const SceneInput& input, double notches) {
-  if (session_.menu().turn_wheel(input.ray(session_.view().now()), notches)) return;
+  // A hand that the mouse leads goes away and comes back by the wheel, also before a menu.
+  if (tool_ != Tool::Touch && session_.menu().turn_wheel(input.ray(session_.view()), notches)) return;
   if (tool_ == Tool::Touch && (touch_tool_.pressing() || touch_tool_.goes_freely())) {
     touch_tool_.turn_wheel(notches);
   } else if (!stays_) {
