@@ -18,7 +18,9 @@ constexpr double kStillShare = 0.05;      // of the stretches
 constexpr std::size_t kLeastSamples = 8;  // in a stretch: a line leaves fewer nothing to deviate by
 constexpr double kMostAhead = 0.4, kMostBehind = 0.6;  // s, of shifts that are tried
 
-double angle_between_turns(const Quaternion& one, const Quaternion& other) { return one.angularDistance(other); }
+double angle_between_turns(const Quaternion& one, const Quaternion& other) {
+  return one.angularDistance(other);
+}
 
 /// The poses of a recording between two of its samples; time goes forward from call to call of the same
 /// shift, so that a place is found from the last one.
