@@ -72,7 +72,7 @@ class ExportNameDialog final : public QFileDialog {
     if (!typed.endsWith('/')) return QFileDialog::accept();
     const QString folder = QFileInfo(typed).isAbsolute() ? typed : directory().filePath(typed);
     emit fileSelected(folder.endsWith('/') ? folder : folder + '/');
-    QDialog::accept();
+    done(QDialog::Accepted);
   }
 
  private:
