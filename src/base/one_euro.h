@@ -22,44 +22,6 @@ inline double low_pass_share(double cutoff, double gap) {
   return turn / (turn + 1);
 }
 
-/// Steadies a point. The speed of all coordinates counts together, so that it favours no direction.
-template <int kCoordinates>
-class SteadyPoint {
- public:
-  using Point = Eigen::Matrix<double, kCoordinates, 1>;
-  explicit SteadyPoint(const OneEuroSettings& settings) : settings_(settings) {}
-
-  /// The point at `time`, s. Of a time not after the last one, the last output.
-  Point next(const Point& point, double time) {
-    const double gap = last_ ? time - last_->time : 0;
-    if (!last_ || gap > settings_.longest_gap) {
-      speed_ = Point::Zero();
-      steady_ = point;
-      last_ = Sample{time, point};
-      return point;
-    }
-    if (gap <= 0) return steady_;
-    const Point speed = (point - last_->point) / gap;
-    speed_ += low_pass_share(settings_.speed_cutoff, gap) * (speed - speed_);
-    const double cutoff = settings_.least_cutoff + settings_.speed_gain * speed_.norm();
-    steady_ += low_pass_share(cutoff, gap) * (point - steady_);
-    last_ = Sample{time, point};
-    return steady_;
-  }
-  void forget() { last_.reset(); }
-
- private:
-  struct Sample {
-    double time;
-    Point point;  // as it came in
-  };
-
-  OneEuroSettings settings_;
-  std::optional<Sample> last_;
-  Point speed_ = Point::Zero();
-  Point steady_ = Point::Zero();
-};
-
 /// The turn that a rotation is: its axis (unit) times its angle, rad, at most half a turn.
 inline Vector3 turn_of(const Quaternion& rotation) {
   const Eigen::AngleAxisd turn(rotation.w() < 0.0 ? Quaternion(-rotation.coeffs()) : rotation);
@@ -72,26 +34,51 @@ inline Quaternion rotation_of_turn(const Vector3& turn) {
   return angle > 0.0 ? Quaternion(Eigen::AngleAxisd(angle, turn / angle)) : Quaternion::Identity();
 }
 
-/// Steadies a rotation, as SteadyPoint does a point, on the arcs between rotations; speeds are rad/s.
-class SteadyRotation {
- public:
-  explicit SteadyRotation(const OneEuroSettings& settings) : settings_(settings) {}
+/// Points as the filter needs them: the way from one to another, and a place on it.
+template <int kCoordinates>
+struct PointSpace {
+  using Value = Eigen::Matrix<double, kCoordinates, 1>;
+  using Way = Value;
+  static Value origin() { return Value::Zero(); }
+  static Way way(const Value& from, const Value& to) { return to - from; }
+  static Value between(const Value& from, const Value& to, double share) {
+    return from + share * (to - from);
+  }
+};
 
-  /// The rotation (unit length) at `time`, s. Of a time not after the last one, the last output.
-  Quaternion next(const Quaternion& rotation, double time) {
+/// Rotations of unit length, and the arcs between them, whose ways are turns in rad.
+struct RotationSpace {
+  using Value = Quaternion;
+  using Way = Vector3;
+  static Value origin() { return Value::Identity(); }
+  static Way way(const Value& from, const Value& to) { return turn_of(to * from.conjugate()); }
+  static Value between(const Value& from, const Value& to, double share) {
+    return from.slerp(share, to).normalized();
+  }
+};
+
+/// Steadies a value. The speed of all its coordinates counts together, so that it favours no direction.
+template <typename Space>
+class Steady {
+ public:
+  using Value = typename Space::Value;
+  explicit Steady(const OneEuroSettings& settings) : settings_(settings) {}
+
+  /// The value at `time`, s. Of a time not after the last one, the last output.
+  Value next(const Value& value, double time) {
     const double gap = last_ ? time - last_->time : 0;
     if (!last_ || gap > settings_.longest_gap) {
-      speed_ = Vector3::Zero();
-      steady_ = rotation;
-      last_ = Sample{time, rotation};
-      return rotation;
+      speed_ = Space::Way::Zero();
+      steady_ = value;
+      last_ = Sample{time, value};
+      return value;
     }
     if (gap <= 0) return steady_;
-    const Vector3 speed = turn_of(rotation * last_->rotation.conjugate()) / gap;
+    const typename Space::Way speed = Space::way(last_->value, value) / gap;
     speed_ += low_pass_share(settings_.speed_cutoff, gap) * (speed - speed_);
     const double cutoff = settings_.least_cutoff + settings_.speed_gain * speed_.norm();
-    steady_ = steady_.slerp(low_pass_share(cutoff, gap), rotation).normalized();
-    last_ = Sample{time, rotation};
+    steady_ = Space::between(steady_, value, low_pass_share(cutoff, gap));
+    last_ = Sample{time, value};
     return steady_;
   }
   void forget() { last_.reset(); }
@@ -99,13 +86,17 @@ class SteadyRotation {
  private:
   struct Sample {
     double time;
-    Quaternion rotation;  // as it came in
+    Value value;  // as it came in
   };
 
   OneEuroSettings settings_;
   std::optional<Sample> last_;
-  Vector3 speed_ = Vector3::Zero();
-  Quaternion steady_ = Quaternion::Identity();
+  typename Space::Way speed_ = Space::Way::Zero();
+  Value steady_ = Space::origin();
 };
+
+template <int kCoordinates>
+using SteadyPoint = Steady<PointSpace<kCoordinates>>;
+using SteadyRotation = Steady<RotationSpace>;
 
 }  // namespace icome::base

@@ -17,7 +17,7 @@ inline constexpr OneEuroSettings kSteadyAngle = {1, 10, 4, 0.3};
 /// Steadies a place.
 class SteadyPlace : public base::SteadyPoint<2> {
  public:
-  explicit SteadyPlace(const OneEuroSettings& settings = kSteadyPlace) : SteadyPoint(settings) {}
+  explicit SteadyPlace(const OneEuroSettings& settings = kSteadyPlace) : base::SteadyPoint<2>(settings) {}
 };
 
 /// Steadies an angle, rad: full turns do not matter to it, and what it gives counts them: it changes by less

@@ -92,17 +92,24 @@ StatsJson row_json(const study::Study& study, const study::ResultTable& table, c
   return json;
 }
 
+/// Names the factor of a table, the trials that it is of, and the level of another factor that it keeps to.
+template <typename Table>
+StatsJson table_head_json(const study::Study& study, const Table& table) {
+  StatsJson head = {{"factor", study.independent[table.factor].id},
+                    {"trials", table.trials == study::TrialChoice::All ? "all" : "last"}};
+  if (table.within_level) {
+    const study::IndependentVariable& other = study.independent[table.within_level->first];
+    head["only"] = StatsJson{{other.id, other.levels[table.within_level->second].id}};
+  }
+  return head;
+}
+
 StatsJson tables_json(const study::StudyData& data, const study::Analysis& analysis) {
   StatsJson tables = StatsJson::array();
   for (const study::ResultTable& table : analysis.tables) {
     StatsJson rows = StatsJson::array();
     for (const study::ResultRow& row : table.rows) rows.push_back(row_json(data.study, table, row));
-    StatsJson one = {{"factor", data.study.independent[table.factor].id},
-                     {"trials", table.trials == study::TrialChoice::All ? "all" : "last"}};
-    if (table.within_level) {
-      const study::IndependentVariable& other = data.study.independent[table.within_level->first];
-      one["only"] = StatsJson{{other.id, other.levels[table.within_level->second].id}};
-    }
+    StatsJson one = table_head_json(data.study, table);
     one["rows"] = rows;
     tables.push_back(one);
   }
@@ -175,12 +182,7 @@ StatsJson thesis_json(const study::StudyData& data, const study::Analysis& analy
   for (const study::ThesisTable& table : analysis.thesis_tables) {
     StatsJson rows = StatsJson::array();
     for (const study::ThesisRow& row : table.rows) rows.push_back(thesis_row_json(data.study, table, row));
-    StatsJson one = {{"factor", data.study.independent[table.factor].id},
-                     {"trials", table.trials == study::TrialChoice::All ? "all" : "last"}};
-    if (table.within_level) {
-      const study::IndependentVariable& other = data.study.independent[table.within_level->first];
-      one["only"] = StatsJson{{other.id, other.levels[table.within_level->second].id}};
-    }
+    StatsJson one = table_head_json(data.study, table);
     one["rows"] = rows;
     one["choices"] = choices_json(data.study, table);
     tables.push_back(one);

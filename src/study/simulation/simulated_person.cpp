@@ -100,8 +100,9 @@ class SimulatedTrialRun {
     while (!over()) {
       find_goal();
       for (const Vector3& corner : route(at_, hover_, obstacles_, kClearance)) move(corner, corner == hover_);
-      choose();
+      const bool is_wrong = sees_another();
       rest(model_.correction);
+      if (!is_wrong) choose();
     }
     SimulatedPerson::Run run;
     run.measures = watch_.measures();
@@ -194,6 +195,12 @@ class SimulatedTrialRun {
     const double mass = settings.info.effective_mass + settings.hand.mass;
     const double spring = settings.hand.stiffness;
     return spring / std::hypot(spring - mass * w * w, settings.hand.damping * w);
+  }
+
+  /// Is something lit that would be a wrong choice? Who sees that corrects the movement first.
+  bool sees_another() const {
+    const int lit = watch_.lit();
+    return lit >= 0 && watch_.goal().things[std::size_t(lit)].wrong;
   }
 
   bool over() const { return watch_.state() == TrialWatch::State::Over; }

@@ -17,14 +17,21 @@
 namespace icome::study {
 namespace {
 
-SimulatedPerson::Run run_of(const TemplateFolder& folder, const std::string& file, std::uint64_t who,
-                            std::size_t group, std::size_t condition, std::size_t number) {
-  const Study& study = folder.study();
+/// A trial of a person who is in that group, in that condition.
+std::pair<Participant, TrialPlan> planned(const Study& study, std::uint64_t who, std::size_t group,
+                                          std::size_t condition, std::size_t number) {
   Participant person;
   person.number = who;
   person.group = group;
   TrialPlan plan = measured_trial(study, person, 0, number);
   plan.condition = condition;
+  return {person, plan};
+}
+
+SimulatedPerson::Run run_of(const TemplateFolder& folder, const std::string& file, std::uint64_t who,
+                            std::size_t group, std::size_t condition, std::size_t number) {
+  const Study& study = folder.study();
+  const auto [person, plan] = planned(study, who, group, condition, number);
   const world::World world = folder.scene(file);
   session::HapticRepresentation felt;
   felt.open(world);
@@ -49,11 +56,7 @@ TEST(SimulatedPerson, ReachesTheTargetInEveryRoom) {
 SimulatedPerson::Run menu_run(const TemplateFolder& folder, std::uint64_t who, std::size_t group,
                               std::size_t condition, std::size_t number) {
   const Study& study = folder.study();
-  Participant person;
-  person.number = who;
-  person.group = group;
-  TrialPlan plan = measured_trial(study, person, 0, number);
-  plan.condition = condition;
+  const auto [person, plan] = planned(study, who, group, condition, number);
   SceneReader scenes(study, folder.path());
   const world::World world = scenes.in_trial(plan).value();
   session::HapticRepresentation felt;
