@@ -33,7 +33,7 @@ base::Vector3 place_of(const HeadInPicture& seen, int width, int height, const H
 base::Result<HeadCamera> read_head_camera(std::string_view text, const std::string& source);
 std::string head_camera_text(const HeadCamera& camera);
 
-/// What a camera as a tracker of the head is called: "camera" or "camera-marker", then perhaps ":SOURCE", as
+/// The address of a camera as a tracker of the head: "camera" or "camera-marker", then perhaps ":SOURCE", as
 /// cutout::open_source() takes it, and "?key=value&...": colour, size (mm), field (degrees, of the picture's
 /// width), calibration (a file).
 struct HeadCameraAddress {

@@ -58,7 +58,7 @@ std::vector<Vector2> candidates(const Vector2& tile, double reach) {
       const Vector2 place(column * step.x(), row * step.y());
       if (place.norm() <= reach) places.push_back(place);
     }
-  // Of two that are as near, the upper one comes first, then the left one: as people read.
+  // As people read: among places that are equally near, the upper one comes first, then the left one.
   std::ranges::sort(places, {}, [](const Vector2& it) {
     return std::array<double, 3>{std::round(1e9 * it.norm()), -it.y(), it.x()};
   });

@@ -72,7 +72,7 @@ struct Widget {
   bool is_default = false;         // of a dialog: what Enter chooses
   bool is_cancel = false;          // of a dialog: what Escape chooses
   WidgetFeel feel = {};
-  /// Of Item: opens as a menu beside it. Rows of a List, pages of Tabs, and what is on a Page.
+  /// The menu that an Item opens beside it, rows of a List, pages of Tabs, and the widgets on a Page.
   std::vector<Widget> widgets = {};
   std::string unit = {};                      // of Number, behind its value
   world::Colour colour = {1.0F, 1.0F, 1.0F};  // of Colour

@@ -20,7 +20,7 @@ base::Pose world_from_sheet(const ElementFrame& frame, const LaidSheet& sheet);
 /// The ground of the element's sheets, without size or targets.
 haptics::PanelSettings ground_of(const Element& element);
 
-/// What is felt of an element, as it is set: a panel for each sheet, the element's own first.
+/// Makes the panels by which an element is felt as it is set: one for each sheet, the element's own first.
 std::vector<FeltSheet> feel_of(const Element& element, const ElementLayout& layout, const ElementFrame& frame,
                                const ElementSettings& settings);
 

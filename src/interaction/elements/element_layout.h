@@ -90,7 +90,7 @@ struct LaidFrame {
   LaidBox box = {};
 };
 
-/// What shows of an element where not all of it does.
+/// The rows and pages that show of an element where not all of it does.
 struct ShownParts {
   /// The first row that is seen, by the List, or the Item that opens the menu; null: the element's own.
   std::unordered_map<const Widget*, std::size_t> first_rows = {};

@@ -14,8 +14,8 @@ struct OperationCall {
   Value::Fields arguments = {};
 };
 
-/// What people have set in an element: ticks, values, colours, rows and pages. Refers to the element, which
-/// keeps what its file says.
+/// The settings that people have made in an element: ticks, values, colours, rows and pages. Refers to the
+/// element, which keeps what its file says.
 class ElementSettings {
  public:
   struct Setting {
@@ -38,7 +38,8 @@ class ElementSettings {
   /// The value that it, or the List of a Row, tells: true or false, a number, "#rrggbb" or a name; null:
   /// none.
   Value value_of(const Widget& widget) const;
-  /// What choosing it does: its operation, or that of its List, with its value where that is an argument.
+  /// The call that choosing it makes: its operation, or that of its List, with its value where that is an
+  /// argument.
   OperationCall call_of(const Widget& widget) const;
 
  private:

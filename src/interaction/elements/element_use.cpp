@@ -619,7 +619,7 @@ const std::string* ElementUse::typed_into(const Widget& number) const {
   return edit_ && edit_->widget == &number && number.kind == WidgetKind::Number ? &edit_->typed : nullptr;
 }
 
-/// What is wrong stays, to be mended.
+/// Sets the number that was typed. Digits that make no number in range stay, so that they can be mended.
 std::optional<Choice> ElementUse::set_typed() {
   const Widget& number = *edit_->widget;
   const std::string digits = edit_->typed.starts_with('+') ? edit_->typed.substr(1) : edit_->typed;

@@ -105,7 +105,7 @@ class ElementUse {
   bool is_editing() const { return edit_.has_value(); }
   /// The digits that are being typed into a Number; null: none are.
   const std::string* typed_into(const Widget& number) const;
-  /// What was wrong with what was typed last, in a sentence; empty: nothing.
+  /// Says in a sentence why the digits that were typed last are refused; empty: they are not.
   const std::string& trouble() const { return trouble_; }
   /// Grows where the places of widgets, or what is felt of them, have changed.
   std::uint64_t layout_revision() const { return layout_revision_; }

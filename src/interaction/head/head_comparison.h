@@ -8,7 +8,7 @@
 
 namespace icome::interaction {
 
-/// What a way of steadying does to a recorded motion; places in m, rotations in rad, times in s.
+/// The jitter and lag that a filter gives a recorded motion; places in m, rotations in rad, times in s.
 struct HeadFilterScore {
   HeadFilterSettings settings;
   /// Root mean square of the deviation from a straight line, or an even turn, in the stillest twentieth of

@@ -30,7 +30,8 @@ enum class HeadFilterKind : std::uint8_t { None, Mean, OneEuro };
 std::optional<HeadFilterKind> head_filter_of(std::string_view name);
 std::string_view name_of(HeadFilterKind kind);
 
-/// How the poses that a tracker of the head tells are steadied, and how far ahead of them the view is.
+/// Settings of the filter that steadies a head tracker's poses, and of prediction, which puts the view ahead
+/// of them.
 struct HeadFilterSettings {
   HeadFilterKind kind = HeadFilterKind::Mean;  // the thesis's, 5.7.1
   double predict = 0.0;                        // s ahead of the newest sample; 0 to kMostPredicted

@@ -49,7 +49,7 @@ PartPlace place_of(const ElementUse& use, const ElementPart& part) {
   return place;
 }
 
-/// What is turned away is fainter.
+/// Parts that are turned away are fainter.
 Panel panel_at(const ElementUse& use, const ElementPart& part, const PartPlace& place) {
   const ElementFrame& frame = use.frame();
   const Vector3 middle = place.pose.translation();

@@ -444,7 +444,7 @@ double outside_sheet(const interaction::ElementUse& use, std::size_t number, con
   return least;
 }
 
-/// How far a place of the plane lies outside what is seen, m.
+/// The distance of a place of the plane from the part that is seen, m, < 0 in it.
 using Outside = std::function<double(const Vector2&)>;
 
 /// Cuts what is seen out of its page, with a line round it, and premultiplies.

@@ -53,7 +53,7 @@ class UserInteraction {
   void follow_head(bool follows) { follows_head_ = follows; }
   /// From now on the eye is at the view's place where the head is now.
   void recentre_head();
-  /// How the head's poses are steadied and predicted.
+  /// Sets the filter and prediction of the head's poses.
   void set_head_filter(const interaction::HeadFilterSettings& filter) { head_motion_.set_filter(filter); }
 
   /// Makes the screen a window into the world: the eye is where the head is before it, without the transfer

@@ -143,7 +143,7 @@ struct Task {
   std::optional<bool> stereo =
       {};  // each eye gets a picture; none: where stereo is needed, else as it was chosen
   base::Vector3 start = base::Vector3(0.0, 0.0, 0.1);  // m, stage frame: the start of the pointer
-  // Where one of these is not given, that of the element counts or, of objects, the default of TrialGoal.
+  // A distance that is not given is that of the element or, of objects, the default of TrialGoal.
   std::optional<double> near = {};   // m, the longest distance from the tip for a click
   std::optional<double> depth = {};  // m, the depth of the tip for a push to count
   std::optional<double> vicinity =

@@ -27,7 +27,7 @@ constexpr double kPushesPast = 0.009;   // m, behind the depth of a push, which 
 constexpr double kSharpest = 0.001;     // m, tolerance that nobody goes below
 constexpr int kMostMenuMovements = 200;
 
-/// How far from its middle a widget may still be hit, m.
+/// The distance from its middle within which a widget is still hit, m.
 double tolerance_of(const LaidWidget& laid) {
   if (!laid.sector) return std::max(laid.half.minCoeff(), kSharpest);
   const double half_angle = std::min(0.5 * (laid.sector->to - laid.sector->from), 0.5 * std::numbers::pi);

@@ -822,7 +822,8 @@ void CutoutWindow::offer_lost() {
 
 void CutoutWindow::closeEvent(QCloseEvent* event) {
   transport_.stop();
-  // What is being typed is entered now: after the journal has ended it would be lost, or kept for nothing.
+  // Text that is being typed is entered now: after the journal has ended it would be lost, or kept for
+  // nothing.
   if (qobject_cast<QLineEdit*>(focusWidget()) != nullptr) stage_->setFocus();
   if (!agreed_ && document_.is_modified()) {
     event->ignore();

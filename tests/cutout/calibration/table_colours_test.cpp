@@ -55,7 +55,7 @@ TEST(TableColours, SayWhyTheyCannotBeMeasured) {
                                TableView::whole_frame(320, 240, 640, 480)));
 }
 
-/// How many of eight pale triangles a tracker with that view finds in a few frames.
+/// Counts the sightings of eight pale triangles by a tracker with that view in a few frames.
 std::size_t found_with(const TableView& view, bool follows) {
   const KnownTriangles known = drawn_triangles(8);
   base::Random random(9);

@@ -12,7 +12,7 @@ class Hand {
  public:
   explicit Hand(ElementUse& use) : use_(use) {}
 
-  /// Where a widget is, that far in front of the plane.
+  /// The place that far in front of a widget, m.
   base::Vector3 at(std::string_view name, double front) const {
     const Widget* const widget = find_widget(use_.element().widgets, name);
     for (const LaidWidget& laid : use_.layout().widgets)

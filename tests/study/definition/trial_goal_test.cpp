@@ -180,7 +180,7 @@ TEST(TrialGoal, AnElementWithoutTheTargetOrWithADisabledOneIsTold) {
   EXPECT_NE(none.error().message.find("menu/pink"), std::string::npos) << none.error().message;
 }
 
-/// What the first trial of a study in its scene says of stereo.
+/// Says whether the first trial of a study in its scene is in stereo.
 std::optional<bool> stereo_of(const TemplateFolder& folder, const Study& study, std::size_t condition) {
   TrialPlan plan = measured_trial(study, {}, 0, 0);
   plan.condition = condition;

@@ -259,7 +259,7 @@ TEST(TrialStage, AMenuOfTheSceneIsClickedWithTheMousesHand) {
   EXPECT_LT(menu.stage->measures().approach_time, menu.stage->measures().time);
   EXPECT_EQ(menu.chosen(), (std::vector<std::string>{"menu/" + menu.other(), "menu/" + menu.target()}));
   menu.stage->update();
-  // What was seen is what counts; the menu may be gone before the last choice is told.
+  // The trial counts its own samples; the menu may be gone before it tells its last choice.
   ASSERT_FALSE(menu.shown.empty());
   EXPECT_EQ(menu.shown.front(), menu.other());
   if (menu.shown.size() > 1) {

@@ -169,7 +169,8 @@ TEST(SimulatedPerson, TremblesWhileItHoldsStillAsItsModelSays) {
       const auto run = menu_run(folder, who, 0, 1, number);
       for (int axis = 0; axis < 3; ++axis) {
         std::vector<double> times, values;
-        // What the first tick stirs up has nearly died away by the start; it moves after its reaction time.
+        // The hand's swing from the first tick has nearly died away by the start; it moves after its reaction
+        // time.
         for (const Sample& sample : run.trace.samples) {
           if (sample.time < 0.0 || sample.time >= 0.98 * model.reaction) continue;
           times.push_back(sample.time);
@@ -190,7 +191,7 @@ TEST(SimulatedPerson, TremblesWhileItHoldsStillAsItsModelSays) {
   EXPECT_NEAR(frequencies / count, 1.0, 0.05);
 }
 
-/// Where a person's first movement of 20 cm to the right ends: across and aside, m off the goal. The goal is
+/// The end of a person's first movement of 20 cm to the right: across and aside, m off the goal. The goal is
 /// a plate that is too wide to be missed, so that nothing is corrected.
 base::Vector2 first_landing(std::uint64_t seed) {
   Study study = read_study(study_template("blank", "b").value(), "b").value();

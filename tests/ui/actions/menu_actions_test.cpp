@@ -46,7 +46,7 @@ class MenuActionsTest : public WindowTest {
     ADD_FAILURE() << name << " is not to be seen";
     return {};
   }
-  /// The same of a place of its plane.
+  /// The pixel at which a place of the menu's plane is seen.
   QPointF pixel_of(const base::Vector2& place) {
     const interaction::View& view = session().view().now();
     const Vector3 seen = view.world_from_eye.inverse() * session().menu().use()->frame().in_world(place);

@@ -101,7 +101,7 @@ class CutoutDocument {
 
   const std::filesystem::path& file() const { return file_; }
   bool is_modified() const;
-  /// What came of opening a file.
+  /// The outcome of opening a file.
   struct Opened {
     std::string note;           // about the journal, for people; mostly empty
     std::size_t recovered = 0;  // edits that were not saved, and were taken up again
