@@ -12,7 +12,7 @@
 namespace icome::cutout {
 namespace {
 
-constexpr int kBins = 16;                      // of each channel
+constexpr std::size_t kBins = 16;              // of each channel
 constexpr double kBluer = 24.0;                // of blue minus red, by which triangles differ from the table
 constexpr double kLeastTriangleShare = 0.001;  // of the table, that a triangle covers
 constexpr double kBorder = 0.03;               // of the table's sides
@@ -40,14 +40,19 @@ struct CommonColour {
   std::size_t all = 0;     // of the table
 };
 
+std::size_t bin_of(const std::uint8_t* bgr) {
+  std::size_t bin = 0;
+  for (std::size_t i = 0; i < 3; ++i) bin = bin * kBins + bgr[i] / kBins;
+  return bin;
+}
+
 CommonColour commonest(const FrameView& frame, const TableView& view,
                        const std::function<bool(const std::uint8_t*)>& counts) {
-  std::vector<std::size_t> bins(std::size_t(kBins) * kBins * kBins);
+  std::vector<std::size_t> bins(kBins * kBins * kBins);
   CommonColour common;
   each_on_table(frame, view, [&](const std::uint8_t* bgr) {
     ++common.all;
-    if (counts(bgr))
-      ++bins[std::size_t(bgr[0] / kBins * kBins * kBins + bgr[1] / kBins * kBins + bgr[2] / kBins)];
+    if (counts(bgr)) ++bins[bin_of(bgr)];
   });
   const auto fullest = std::size_t(std::ranges::max_element(bins) - bins.begin());
   const double half = 0.5 * kBins;
