@@ -125,9 +125,21 @@ void SessionParts::use_menu() {
   if (menu.draw(menu_theme)) look_is_new = true;
 }
 
+/// Tells what is being changed in the menu, if that is another value than before.
+void SessionParts::tell_menu_changes() {
+  std::optional<MenuChoice> now = menu.changing();
+  const bool is_same = now ? menu_changing && now->widget.name == menu_changing->widget.name &&
+                                 now->call.arguments == menu_changing->call.arguments
+                           : !menu_changing;
+  if (is_same) return;
+  menu_changing = std::move(now);
+  for (const auto& listener : menu_change_listeners) listener(menu_changing ? &*menu_changing : nullptr);
+}
+
 void SessionParts::tell_menu_choices() {
   for (const MenuChoice& it : std::exchange(menu_chosen, {}))
     for (const auto& listener : menu_listeners) listener(it);
+  tell_menu_changes();
   for (const std::string& it : std::exchange(menu_troubles, {}))
     for (const auto& listener : menu_trouble_listeners) listener(it);
 }
@@ -168,6 +180,10 @@ const interaction::ElementUse* SessionMenu::use() const { return parts_.menu.use
 
 void SessionMenu::on_choice(std::function<void(const MenuChoice&)> listener) {
   parts_.menu_listeners.push_back(std::move(listener));
+}
+
+void SessionMenu::on_changing(std::function<void(const MenuChoice*)> listener) {
+  parts_.menu_change_listeners.push_back(std::move(listener));
 }
 
 void SessionMenu::on_trouble(std::function<void(const std::string&)> listener) {
@@ -211,6 +227,10 @@ bool SessionMenu::choose(std::string_view name_or_text) {
 
 void SessionMenu::enable(const std::function<std::optional<bool>(const interaction::Widget&)>& is_enabled) {
   if (use()) parts_.menu.enable(is_enabled);
+}
+
+void SessionMenu::show_values(const std::function<interaction::Value(const interaction::Widget&)>& value_of) {
+  if (use()) parts_.menu.show_values(value_of);
 }
 
 }  // namespace icome::session

@@ -35,6 +35,10 @@ class SessionMenu {
   const interaction::ElementUse* use() const;
   /// Calls `listener` on main, within Session::update(), with each thing that is chosen.
   void on_choice(std::function<void(const MenuChoice&)> listener);
+  /// Calls `listener` likewise with the choice that would be made if a Slider, Number or Colour that is held
+  /// were let go now, each time that it is another one; and with null when nothing is held any more, after
+  /// what was chosen by letting go.
+  void on_changing(std::function<void(const MenuChoice*)> listener);
   /// Calls `listener` likewise with what is wrong with a number that was typed.
   void on_trouble(std::function<void(const std::string&)> listener);
   void set_theme(ElementTheme theme);
@@ -53,6 +57,8 @@ class SessionMenu {
   bool choose(std::string_view name_or_text);
   /// Enables widgets or not, as `is_enabled` says; nothing: it stays as it is.
   void enable(const std::function<std::optional<bool>(const interaction::Widget&)>& is_enabled);
+  /// Sets values to what the world has, as `value_of` says; null: it stays as it is.
+  void show_values(const std::function<interaction::Value(const interaction::Widget&)>& value_of);
 
  private:
   SessionParts& parts_;

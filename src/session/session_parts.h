@@ -153,6 +153,7 @@ struct SessionParts {
 
   // session_menu.cpp
   void use_menu();
+  void tell_menu_changes();
   void tell_menu_choices();
   bool is_at_menu(std::size_t pointer) const;
   interaction::ElementFrame menu_frame() const;
@@ -239,6 +240,8 @@ struct SessionParts {
   ElementTheme menu_theme = ElementTheme::Light;
   std::vector<MenuChoice> menu_chosen;  // not told yet
   std::deque<std::function<void(const MenuChoice&)>> menu_listeners;
+  std::optional<MenuChoice> menu_changing;  // told last
+  std::deque<std::function<void(const MenuChoice*)>> menu_change_listeners;
   std::vector<std::string> menu_troubles;  // not told yet
   std::deque<std::function<void(const std::string&)>> menu_trouble_listeners;
   realtime::LatestValue<FeltVersion> felt;

@@ -32,6 +32,16 @@ WidgetFeel free_along(WidgetFeel feel) {
   return feel;
 }
 
+/// A well that draws the hand to what is set now.
+void add_well(const Vector2& centre, const Vector2& half, double strength,
+              std::vector<haptics::PanelTarget>& targets) {
+  haptics::PanelTarget well;
+  well.centre = centre;
+  well.half = half;
+  well.well = strength;
+  if (strength > 0.0) targets.push_back(well);
+}
+
 /// The ring is a groove whose middle draws the hand, the triangle a recess, and the present hue a well.
 void add_wheel(const Element& element, const LaidWidget& laid, const LaidSheet& sheet, double hue,
                std::vector<haptics::PanelTarget>& targets) {
@@ -46,11 +56,17 @@ void add_wheel(const Element& element, const LaidWidget& laid, const LaidSheet& 
       target_at(element, {wheel.centre, Vector2::Constant(wheel.corner)}, sheet, free_along(feel));
   triangle.shape = haptics::PanelTarget::Shape::Triangle;
   targets.push_back(triangle);
-  haptics::PanelTarget well;
-  well.centre = wheel.place_of_hue(hue) - sheet.centre;
-  well.half = Vector2::Constant(0.5 * (wheel.outer - wheel.inner));
-  well.well = feel.well;
-  if (feel.well > 0.0) targets.push_back(well);
+  add_well(wheel.place_of_hue(hue) - sheet.centre, Vector2::Constant(0.5 * (wheel.outer - wheel.inner)),
+           feel.well, targets);
+}
+
+/// A recess to go along, and a well at the value.
+void add_slider(const Element& element, const LaidWidget& laid, const LaidSheet& sheet, double value,
+                std::vector<haptics::PanelTarget>& targets) {
+  const Widget& slider = *laid.widget;
+  targets.push_back(target_at(element, {laid.centre, laid.half}, sheet, free_along(slider.feel)));
+  const Vector2 place(groove_of(laid, element.text_height).place_of(slider, value), laid.centre.y());
+  add_well(place - sheet.centre, Vector2::Constant(laid.half.y()), slider.feel.well, targets);
 }
 
 void add_targets(const Element& element, const ElementLayout& layout, const LaidWidget& laid,
@@ -65,6 +81,8 @@ void add_targets(const Element& element, const ElementLayout& layout, const Laid
     targets.push_back(plain);
   } else if (widget.kind == WidgetKind::Colour) {
     add_wheel(element, laid, sheet, settings.of(widget).colour.hue, targets);
+  } else if (widget.kind == WidgetKind::Slider) {
+    add_slider(element, laid, sheet, settings.of(widget).value, targets);
   } else if (widget.kind == WidgetKind::Number) {
     targets.push_back(target_at(element, field_of(layout, widget), sheet, free_along(widget.feel)));
   } else {

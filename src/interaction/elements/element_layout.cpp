@@ -493,6 +493,17 @@ bool LaidWidget::contains(const Vector2& place) const {
   return sector ? sector->contains(place) : LaidBox{centre, half}.contains(place);
 }
 
+double SliderGroove::value_at(const Widget& slider, double place) const {
+  const double share = std::clamp((place - left) / (right - left), 0.0, 1.0);
+  return slider.least + share * (slider.most - slider.least);
+}
+
+double SliderGroove::place_of(const Widget& slider, double value) const {
+  const double range = slider.most - slider.least;
+  const double share = range > 0.0 ? std::clamp((value - slider.least) / range, 0.0, 1.0) : 0.0;
+  return left + share * (right - left);
+}
+
 SliderGroove groove_of(const LaidWidget& slider, double text_height) {
   const double right = slider.centre.x() + slider.half.x() - kPadding * text_height;
   return {right - (kSliderRoom - kPadding) * text_height, right};

@@ -49,6 +49,10 @@ struct LaidWidget {
 /// The groove of a slider, m to the right of the element's centre.
 struct SliderGroove {
   double left = 0.0, right = 0.0;
+
+  /// The value that a place stands for; beyond the ends that of the end.
+  double value_at(const Widget& slider, double place) const;
+  double place_of(const Widget& slider, double value) const;
 };
 /// The groove of a laid slider in an element whose text is that high.
 SliderGroove groove_of(const LaidWidget& slider, double text_height);
@@ -63,6 +67,7 @@ enum class HandleKind : std::uint8_t {
   Bar,       // of rows that scroll, between the two
   Ring,      // of a Colour; see ColourWheel
   Triangle,  // of a Colour
+  Groove     // of a Slider
 };
 
 /// A Less, More or Bar at its place.

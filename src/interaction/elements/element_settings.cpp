@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "interaction/operations/looks/colour_names.h"
+
 namespace icome::interaction {
 namespace {
 
@@ -58,6 +60,36 @@ void ElementSettings::choose(const Widget& widget) {
   }
   const bool is_of_several = widget.kind == WidgetKind::Row || widget.kind == WidgetKind::Page;
   if (is_of_several && setting.parent != nullptr) of(*setting.parent).chosen = &widget;
+}
+
+bool ElementSettings::set(const Widget& widget, const Value& value) {
+  Setting& setting = of(widget);
+  const Value before = value_of(widget);
+  switch (widget.kind) {
+    case WidgetKind::Check:
+      if (const bool* const flag = value.flag()) setting.checked = *flag;
+      break;
+    case WidgetKind::Slider:
+    case WidgetKind::Number:
+      if (const double* const number = value.number(); number && widget.value_times != 0.0)
+        setting.value = rounded_value(*number / widget.value_times);
+      break;
+    case WidgetKind::Colour:
+      // A colour that is told again keeps the hue that its grey was given.
+      if (value.text() != nullptr && value != before)
+        if (const auto colour = colour_from_text(*value.text()))
+          setting.colour = hsv_of(*colour, setting.colour);
+      break;
+    case WidgetKind::List:
+      if (value.text() != nullptr) {
+        const auto row = std::ranges::find(widget.widgets, *value.text(), &Widget::name);
+        setting.chosen = row != widget.widgets.end() ? &*row : nullptr;
+      }
+      break;
+    default:
+      break;
+  }
+  return value_of(widget) != before;
 }
 
 Value ElementSettings::value_of(const Widget& widget) const {

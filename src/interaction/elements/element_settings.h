@@ -33,6 +33,9 @@ class ElementSettings {
   Setting& of(const Widget& widget) { return all_.find(&widget)->second; }
   /// Can it be chosen, and is it enabled with the list and pages that it is in?
   bool is_usable(const Widget& widget) const;
+  /// Sets what the argument of its operation is in the world, such as the size of what is selected; see
+  /// call_of(). A value of another kind changes nothing. True: it is another one now.
+  bool set(const Widget& widget, const Value& value);
   /// Sets what choosing it sets: ticks it, or makes it the one of its group, list or tabs.
   void choose(const Widget& widget);
   /// The value that it, or the List of a Row, tells: true or false, a number, "#rrggbb" or a name; null:

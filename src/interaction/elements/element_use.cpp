@@ -142,11 +142,17 @@ bool ElementUse::pushed(double depth) {
   return true;
 }
 
-void ElementUse::set_by_place(const Widget& widget, const Vector2& place) {
-  if (widget.kind != WidgetKind::Slider) return;
-  const SliderGroove groove = groove_of(*layout_.widget(widget), element_.text_height);
-  const double share = std::clamp((place.x() - groove.left) / (groove.right - groove.left), 0.0, 1.0);
-  settings_.of(widget).value = within(widget, widget.least + share * (widget.most - widget.least));
+/// The part of a Colour or Slider that is held at that place; none: another one, or its text.
+std::optional<HandleKind> ElementUse::held_part(const LaidWidget& laid, const Vector2& place) const {
+  if (laid.widget->kind == WidgetKind::Slider) {
+    const SliderGroove groove = groove_of(laid, element_.text_height);
+    const bool is_beside = place.x() < groove.left - element_.text_height;
+    return is_beside ? std::nullopt : std::optional(HandleKind::Groove);
+  }
+  if (laid.widget->kind != WidgetKind::Colour) return std::nullopt;
+  const auto part = wheel_of(laid, element_.text_height).part_at(place);
+  if (part == ColourWheel::Part::None) return std::nullopt;
+  return part == ColourWheel::Part::Ring ? HandleKind::Ring : HandleKind::Triangle;
 }
 
 void ElementUse::rest(double time, bool attended) {
@@ -228,14 +234,10 @@ std::optional<Choice> ElementUse::press_at(const Vector2& place, ChosenBy by) {
   const LaidWidget* const under = layout_.at(place);
   if (under == nullptr || !settings_.is_usable(*under->widget)) return std::nullopt;
   const Widget& widget = *under->widget;
-  if (widget.kind == WidgetKind::Colour) {
-    const auto part = wheel_of(*under, element_.text_height).part_at(place);
-    if (part != ColourWheel::Part::None) {
-      hold({part == ColourWheel::Part::Ring ? HandleKind::Ring : HandleKind::Triangle, &widget}, by, place);
-      return std::nullopt;
-    }
+  if (const auto part = held_part(*under, place)) {
+    hold({*part, &widget}, by, place);
+    return std::nullopt;
   }
-  set_by_place(widget, place);
   return choose(widget, by);
 }
 
@@ -259,12 +261,24 @@ std::optional<Choice> ElementUse::keep_holding(const Vector2& place) {
 }
 
 std::optional<Choice> ElementUse::let_go() {
+  const Widget* const set = changing();
   const Hold was = *std::exchange(held_, std::nullopt);
-  const Widget* const of = was.handle.of;
-  const bool is_set = of != nullptr && (of->kind == WidgetKind::Number || of->kind == WidgetKind::Colour);
-  // The well of a hue goes to where that is now.
-  if (is_set && of->kind == WidgetKind::Colour) ++layout_revision_;
-  return is_set ? choose(*of, was.by) : std::nullopt;
+  return set != nullptr ? choose(*set, was.by) : std::nullopt;
+}
+
+const Widget* ElementUse::changing() const {
+  const Widget* const it = held_ ? held_->handle.of : edit_ ? edit_->widget : nullptr;
+  if (it == nullptr) return nullptr;
+  const bool is_dragged = it->kind == WidgetKind::Slider || it->kind == WidgetKind::Number;
+  return it->kind == WidgetKind::Colour || (held_ && is_dragged) ? it : nullptr;
+}
+
+void ElementUse::show_value(const Widget& widget, const Value& value) {
+  const bool is_typed = edit_ && edit_->widget == &widget;
+  if (&widget == changing() || is_typed || !settings_.set(widget, value)) return;
+  if (const Widget* const row = settings_.of(widget).chosen; row && widget.kind == WidgetKind::List)
+    bring_into_sight(*row);
+  ++layout_revision_;
 }
 
 void ElementUse::drag(const Vector2& place) {
@@ -275,6 +289,11 @@ void ElementUse::drag(const Vector2& place) {
     const ColourWheel wheel = wheel_of(*laid, element_.text_height);
     Hsv& colour = settings_.of(*of).colour;
     colour = kind == HandleKind::Ring ? wheel.with_hue_at(colour, place) : wheel.with_shade_at(colour, place);
+  } else if (kind == HandleKind::Groove) {
+    const LaidWidget* const laid = layout_.widget(*of);
+    if (laid == nullptr) return;
+    const SliderGroove groove = groove_of(*laid, element_.text_height);
+    settings_.of(*of).value = within(*of, groove.value_at(*of, place.x()));
   } else if (kind == HandleKind::Bar) {
     const LaidColumn* const column = layout_.column(of);
     const LaidHandle* const bar = layout_.handle(kind, of);
@@ -336,6 +355,8 @@ std::optional<Choice> ElementUse::choose(const Widget& widget, ChosenBy by) {
   if (edit_ && edit_->widget != &widget) give_up_edit();
   edit_.reset();
   settings_.choose(widget);
+  // The well of a hue or a value goes to where that is now.
+  if (widget.kind == WidgetKind::Colour || widget.kind == WidgetKind::Slider) ++layout_revision_;
   if (widget.opens_menu()) {
     open_menu(widget);
   } else if (widget.kind == WidgetKind::Page) {
@@ -583,11 +604,7 @@ std::optional<Choice> ElementUse::press_in_edit(ElementKey key, bool& used) {
     give_up_edit();
     return std::nullopt;
   }
-  if (key == ElementKey::Enter) {
-    if (is_number) return set_typed();
-    ++layout_revision_;
-    return choose(widget, ChosenBy::Key);
-  }
+  if (key == ElementKey::Enter) return is_number ? set_typed() : choose(widget, ChosenBy::Key);
   if (key == ElementKey::Backspace) {
     if (is_number && !edit_->typed.empty()) edit_->typed.pop_back();
     return std::nullopt;

@@ -71,6 +71,12 @@ class ElementUse {
   /// Turns a wheel: > 0 is away from the person. Where the pointer is, else where the light is, rows scroll
   /// and Sliders and Numbers are stepped.
   std::optional<Choice> turn_wheel(double notches);
+  /// Shows what the world has, such as the size of what is selected: ElementSettings::set(). What is held or
+  /// being typed stays.
+  void show_value(const Widget& widget, const Value& value);
+  /// The widget whose value is being changed: that of a Slider, Number or Colour which is held, or of a
+  /// Colour which keys change; it is chosen when that ends. Null: none is.
+  const Widget* changing() const;
   /// Brings a widget into sight: its page, its menu, its row. False: there is none of that name or text, or
   /// something that it is in is disabled.
   bool show(std::string_view name_or_text);
@@ -145,7 +151,7 @@ class ElementUse {
   void repeat(double time);
   void step_handle(const HandleName& handle);
   void step_value(const Widget& widget, double steps);
-  void set_by_place(const Widget& widget, const Vector2& place);
+  std::optional<HandleKind> held_part(const LaidWidget& laid, const Vector2& place) const;
   std::optional<Choice> choose(const Widget& widget, ChosenBy by);
   bool show(const std::vector<const Widget*>& way);
   void show_page(const Widget& page);

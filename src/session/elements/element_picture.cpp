@@ -408,8 +408,7 @@ class SheetPainter {
     const auto groove = interaction::groove_of(laid, use_.element().text_height);
     const double left = page({groove.left, 0.0}).x(), right = page({groove.right, 0.0}).x();
     const Widget& widget = *laid.widget;
-    const double share = (use_.value_of(widget) - widget.least) / (widget.most - widget.least);
-    const double knob = left + share * (right - left);
+    const double knob = page({groove.place_of(widget, use_.value_of(widget)), 0.0}).x();
     const std::array<Vector2, 2> all{Vector2(left, middle), Vector2(right, middle)};
     const std::array<Vector2, 2> set{Vector2(left, middle), Vector2(knob, middle)};
     canvas_.line(all, {colours_.line, 0.3 * unit_, {}});

@@ -27,6 +27,14 @@ void enable_widgets(std::vector<Widget>& widgets,
   }
 }
 
+void show_values_of(const std::vector<Widget>& widgets, ElementUse& use,
+                    const std::function<interaction::Value(const Widget&)>& value_of) {
+  for (const Widget& widget : widgets) {
+    if (const interaction::Value value = value_of(widget); !value.is_null()) use.show_value(widget, value);
+    show_values_of(widget.widgets, use, value_of);
+  }
+}
+
 bool is_same_panel(const render::SceneOverlay::Panel& one, const render::SceneOverlay::Panel& other) {
   return one.picture == other.picture && one.alpha == other.alpha && one.at == other.at &&
          one.lying == other.lying;
@@ -189,6 +197,15 @@ void SceneMenu::enable(const std::function<std::optional<bool>(const Widget&)>& 
   bool changed = false;
   enable_widgets(element_.widgets, is_enabled, changed);
   if (changed) sheets_.outdate();
+}
+
+void SceneMenu::show_values(const std::function<interaction::Value(const Widget&)>& value_of) {
+  show_values_of(element_.widgets, *use_, value_of);
+}
+
+std::optional<MenuChoice> SceneMenu::changing() const {
+  const Widget* const widget = use_ ? use_->changing() : nullptr;
+  return widget != nullptr ? told(Choice{widget, interaction::ChosenBy::Click}) : std::nullopt;
 }
 
 /// A number for all that the pictures of the sheets show.

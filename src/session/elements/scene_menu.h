@@ -68,6 +68,10 @@ class SceneMenu {
   std::optional<MenuChoice> choose(std::string_view name_or_text);
   /// Enables the widgets of the names in question, or not; others stay as they are.
   void enable(const std::function<std::optional<bool>(const interaction::Widget&)>& is_enabled);
+  /// Sets values to what the world has, such as the colour of what is selected; null: it stays as it is.
+  void show_values(const std::function<interaction::Value(const interaction::Widget&)>& value_of);
+  /// The choice that letting go of a held Slider, Number or Colour would make; nothing: none is held.
+  std::optional<MenuChoice> changing() const;
   /// The hand that uses it; none: none does.
   std::optional<std::size_t> hand() const { return hand_; }
 

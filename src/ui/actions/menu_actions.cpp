@@ -1,10 +1,12 @@
 #include "ui/actions/menu_actions.h"
 
+#include <QElapsedTimer>
 #include <QFileDialog>
 #include <QLocale>
 #include <utility>
 
 #include "interaction/elements/element_file.h"
+#include "interaction/operations/present_value.h"
 #include "ui/actions/actions.h"
 #include "ui/actions/desktop_menu.h"
 #include "ui/actions/recent_files.h"
@@ -19,11 +21,17 @@ using interaction::WidgetKind;
 
 constexpr const char* kMenuFileKey = "menu/file";  // empty: the window's own
 constexpr const char* kMenuTopic = "menu";
+constexpr int kSlow = 50;  // ms, beyond which previews would make the hand that drags stutter
 
 }  // namespace
 
 MenuActions::MenuActions(session::Session& session, QSettings& settings, Hooks hooks, QWidget& window)
-    : session_(session), settings_(settings), hooks_(std::move(hooks)), window_(window) {
+    : session_(session),
+      settings_(settings),
+      hooks_(std::move(hooks)),
+      window_(window),
+      preview_(session, [](OperationPreview::End) {}) {
+  session_.menu().on_changing([this](const session::MenuChoice* choice) { preview(choice); });
   session_.menu().on_choice([this](const session::MenuChoice& choice) { hear(choice); });
   session_.menu().on_trouble([this](const std::string& what) {
     hooks_.tell({.weight = Note::Weight::Passing, .text = what, .topic = kMenuTopic});
@@ -116,6 +124,32 @@ void MenuActions::toggle(const session::MenuSpot& spot) {
 
 void MenuActions::refresh() {
   session_.menu().enable([this](const Widget& widget) { return is_possible(widget); });
+  session_.menu().show_values([this](const Widget& widget) { return present(widget); });
+}
+
+/// The value that the first selected object has of what the widget changes; null: none.
+interaction::Value MenuActions::present(const Widget& widget) const {
+  if (widget.operation.empty() || widget.value_as.empty() || session_.selection().empty()) return {};
+  return interaction::present_value(session_.world(), session_.selection().front(), widget.operation,
+                                    widget.value_as);
+}
+
+/// Tries out what letting go would do; null: nothing is held any more.
+void MenuActions::preview(const session::MenuChoice* choice) {
+  if (choice == nullptr || choice->call.operation.empty()) {
+    preview_.take_back();
+    is_slow_ = false;
+    return;
+  }
+  const auto operation = interaction::find_operation(choice->call.operation);
+  if (!operation || is_slow_) return;
+  const auto fields = completed_fields(**operation, choice->call.arguments, session_.selection());
+  if (!fields || (!preview_.shown() && !hooks_.begin())) return;
+  QElapsedTimer time;
+  time.start();
+  // A value that is refused is told when it is chosen.
+  if (!preview_.show(**operation, *fields)) preview_.take_back();
+  is_slow_ = time.elapsed() > kSlow;
 }
 
 void MenuActions::hear(const session::MenuChoice& choice) {
@@ -132,8 +166,10 @@ void MenuActions::perform(const session::MenuChoice& choice) {
   if (!operation) return;
   const auto fields = completed_fields(**operation, choice.call.arguments, session_.selection());
   if (!fields) return hooks_.ask(**operation);
-  if (!hooks_.begin()) return;
-  const auto done = perform_operation(session_, **operation, *fields);
+  if (!preview_.shown() && !hooks_.begin()) return;
+  const auto done = preview_.shown() ? preview_.show(**operation, *fields)
+                                     : perform_operation(session_, **operation, *fields);
+  done ? preview_.keep() : preview_.take_back();
   if (!done)
     return hooks_.tell({.weight = Note::Weight::Error, .text = done.error().message, .topic = "edit"});
   if (!done->empty()) hooks_.tell({.text = *done, .topic = "edit"});

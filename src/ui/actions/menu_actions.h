@@ -7,13 +7,15 @@
 
 #include "interaction/operations/operation.h"
 #include "session/session.h"
+#include "ui/forms/operation_preview.h"
 #include "ui/window/note.h"
 
 namespace icome::ui {
 
 /// The haptic menu of the window: which one it is, opening it, and doing what is chosen from it. Its items do
-/// operations on what is selected, or commands of the window by the names of their actions. Session, settings
-/// and window outlive it.
+/// operations on what is selected, or commands of the window by the names of their actions. Its values begin
+/// as those of what is selected, and what is held in it is seen and felt before it is let go. Session,
+/// settings and window outlive it.
 class MenuActions {
  public:
   struct Hooks {
@@ -44,6 +46,8 @@ class MenuActions {
   void choose_file();
   void hear(const session::MenuChoice& choice);
   void perform(const session::MenuChoice& choice);
+  void preview(const session::MenuChoice* choice);
+  interaction::Value present(const interaction::Widget& widget) const;
   QAction* command_of(const interaction::Widget& widget) const;
 
   session::Session& session_;
@@ -51,7 +55,9 @@ class MenuActions {
   Hooks hooks_;
   QWidget& window_;
   std::optional<interaction::Element> own_;
-  bool pops_up_ = false;  // the open one
+  bool pops_up_ = false;      // the open one
+  OperationPreview preview_;  // of what is held in the menu
+  bool is_slow_ = false;      // to preview what is held
 };
 
 }  // namespace icome::ui

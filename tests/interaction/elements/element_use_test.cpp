@@ -144,7 +144,8 @@ TEST(ElementUse, TicksRadiosAndSlidersKeepWhatIsSet) {
   const SliderGroove groove = groove_of(*slider, it.element.text_height);
   const Vector2 place(groove.left + 0.62 * (groove.right - groove.left), slider->centre.y());
   it.hand.move(it.use.frame().in_world(place) + 0.01 * it.use.frame().normal(), 0.1);
-  EXPECT_EQ(it.hand.move(it.hand.tip(), 0.01, true), "Size");
+  EXPECT_EQ(it.hand.move(it.hand.tip(), 0.01, true), "") << "it is held";
+  EXPECT_EQ(it.hand.move(it.hand.tip(), 0.01), "Size");
   EXPECT_EQ(it.use.value_of(widget("Size")), 16.0);
 }
 

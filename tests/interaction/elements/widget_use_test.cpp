@@ -342,6 +342,89 @@ TEST(WidgetUse, ADragKeepsWhatItHoldsAndIsChosenOnce) {
   EXPECT_FALSE(it.use.is_holding());
 }
 
+constexpr const char* kSlider =
+    "[[item]]\nname = \"Size\"\nkind = \"slider\"\nleast = 10\nmost = 20\nvalue = 12\n"
+    "operation = \"reshape\"\nvalue_as = \"radius\"\nvalue_times = 0.001\n[[item]]\nname = \"Below\"\n";
+
+TEST(WidgetUse, ASliderIsDraggedAlongItsGrooveAndChosenOnceWhenItIsLetGo) {
+  base::Random random(4);
+  for (int trial = 0; trial < repeats(200); ++trial) {
+    UsedElement it(kSlider);
+    const Widget& slider = it.widget("Size");
+    const LaidWidget laid = *it.use.layout().widget(slider);
+    const SliderGroove groove = groove_of(laid, it.element.text_height);
+    const bool pushes = trial % 2 == 0;
+    const double front = pushes ? -0.005 : 0.01;
+    it.hand.move(it.hand.over({random.uniform(groove.left, groove.right), laid.centre.y()}, 0.01), 0.1);
+    std::string chosen = it.hand.move(it.hand.tip() + (front - 0.01) * it.use.frame().normal(), 0.1, !pushes);
+    EXPECT_EQ(it.use.changing(), &slider);
+    double value = 0.0;
+    for (int way = 0; way < 3; ++way) {
+      const double share = random.uniform(-0.5, 1.5);
+      const Vector2 to(groove.left + share * (groove.right - groove.left), random.uniform(-0.1, 0.1));
+      chosen += it.hand.move(it.hand.over(to, front), 0.1, !pushes);
+      value = 10.0 + 10.0 * std::clamp(share, 0.0, 1.0);
+      EXPECT_NEAR(it.use.value_of(slider), value, 1e-9);
+    }
+    EXPECT_EQ(chosen, "");
+    chosen = it.hand.move(it.hand.tip() + (0.01 - front) * it.use.frame().normal(), 0.1);
+    EXPECT_EQ(chosen, "Size");
+    EXPECT_EQ(it.use.changing(), nullptr);
+    EXPECT_NEAR(it.use.value_of(slider), value, 1e-9);
+  }
+}
+
+TEST(WidgetUse, ThePlaceBesideASlidersGrooveChangesNothing) {
+  UsedElement it(kSlider);
+  const Widget& slider = it.widget("Size");
+  const LaidWidget& laid = *it.use.layout().widget(slider);
+  EXPECT_EQ(it.hand.click_at({laid.centre.x() - 0.9 * laid.half.x(), laid.centre.y()}), "Size");
+  EXPECT_EQ(it.use.value_of(slider), 12.0);
+}
+
+TEST(WidgetUse, WhatTheWorldHasIsShownUnlessItIsHeldOrTyped) {
+  UsedElement it(std::string(kSlider) +
+                 "[[item]]\nname = \"Paint\"\nkind = \"colour\"\nvalue = \"#336699\"\n"
+                 "[[item]]\nname = \"Tick\"\nkind = \"check\"\n"
+                 "[[item]]\nname = \"List\"\nkind = \"list\"\nrows = 3\n[[item.item]]\nname = \"a\"\n"
+                 "[[item.item]]\nname = \"b\"\n[[item.item]]\nname = \"c\"\n[[item.item]]\nname = \"d\"\n"
+                 "[[item]]\nname = \"Number\"\nkind = \"number\"\nmost = 1000\n");
+  const auto& settings = it.use.settings();
+  it.use.show_value(it.widget("Size"), 0.0175);
+  EXPECT_EQ(it.use.value_of(it.widget("Size")), 17.5) << "in the unit of the widget";
+  it.use.show_value(it.widget("Paint"), "#ff8000");
+  EXPECT_EQ(*settings.value_of(it.widget("Paint")).text(), "#ff8000");
+  const Hsv orange = settings.of(it.widget("Paint")).colour;
+  it.use.show_value(it.widget("Paint"), "#808080");
+  EXPECT_EQ(settings.of(it.widget("Paint")).colour.hue, orange.hue) << "a grey keeps the hue";
+  it.use.show_value(it.widget("Tick"), true);
+  EXPECT_TRUE(it.use.is_checked(it.widget("Tick")));
+  it.use.show_value(it.widget("List"), "d");
+  EXPECT_EQ(settings.of(it.widget("List")).chosen, &it.widget("d"));
+  EXPECT_NE(it.use.layout().widget(it.widget("d")), nullptr) << "it is seen";
+  it.use.show_value(it.widget("List"), "elsewhere");
+  EXPECT_EQ(settings.of(it.widget("List")).chosen, nullptr);
+  // What is of another kind changes nothing.
+  it.use.show_value(it.widget("Size"), "wide");
+  it.use.show_value(it.widget("Paint"), 5.0);
+  it.use.show_value(it.widget("Tick"), "yes");
+  EXPECT_EQ(it.use.value_of(it.widget("Size")), 17.5);
+  EXPECT_TRUE(it.use.is_checked(it.widget("Tick")));
+
+  const LaidWidget laid = *it.use.layout().widget(it.widget("Size"));
+  const SliderGroove groove = groove_of(laid, it.element.text_height);
+  it.hand.move(it.hand.over({groove.left, laid.centre.y()}, 0.01), 0.1);
+  it.hand.move(it.hand.tip(), 0.01, true);
+  it.use.show_value(it.widget("Size"), 0.019);
+  EXPECT_EQ(it.use.value_of(it.widget("Size")), 10.0) << "it is held";
+  EXPECT_EQ(it.hand.move(it.hand.tip(), 0.01), "Size");
+  it.hand.move(it.hand.at("Number", 0.01), 0.1);
+  ASSERT_TRUE(it.use.type('7'));
+  it.use.show_value(it.widget("Number"), 50.0);
+  EXPECT_EQ(it.use.press(ElementKey::Enter)->widget->name, "Number");
+  EXPECT_EQ(it.use.value_of(it.widget("Number")), 7.0);
+}
+
 TEST(WidgetUse, KeysChangeAColourUntilItIsSetOrGivenUp) {
   UsedElement it(kPicker);
   const Widget& picker = it.widget("Colour");

@@ -7,6 +7,7 @@
 
 #include "devices/simulated/simulated_device.h"
 #include "places.h"
+#include "ui/forms/operation_arguments.h"
 #include "ui/window_test.h"
 #include "world/shape/mesh_geometry.h"
 #include "world/shape/solid_geometry.h"
@@ -239,10 +240,12 @@ TEST_F(MenuActionsTest, ThePickerColoursWhatIsSelectedByMouseAndKeys) {
   mouse_.move(from);
   mouse_.press(from);
   mouse_.move(0.5 * (from + to));
-  EXPECT_FALSE(colour_of(box)) << "not before it is let go";
+  ASSERT_TRUE(until([&] { return colour_of(box).has_value(); })) << "it is seen while it is dragged";
+  EXPECT_TRUE(session().history().trying());
   mouse_.move(to);
   mouse_.release(to);
-  ASSERT_TRUE(until([&] { return colour_of(box).has_value(); }));
+  ASSERT_TRUE(until([&] { return !session().history().trying(); }));
+  ASSERT_TRUE(colour_of(box).has_value());
   const double hue = interaction::hsv_of(*colour_of(box)).hue;
   EXPECT_NEAR(hue, 2.0 * 2.0 * M_PI / 3.0, 0.05);
   EXPECT_FALSE(use.is_holding());
@@ -254,6 +257,39 @@ TEST_F(MenuActionsTest, ThePickerColoursWhatIsSelectedByMouseAndKeys) {
   ASSERT_TRUE(until([&] { return *colour_of(box) != before; }));
   EXPECT_NEAR(interaction::hsv_of(*colour_of(box)).hue - hue, M_PI / 18.0, 0.02);
   session().menu().close();
+}
+
+TEST_F(MenuActionsTest, ValuesBeginAsThoseOfTheSelectionAndGivingUpLeavesNoTrace) {
+  const ObjectId box = add_box(session());
+  session().select({box});
+  const interaction::Operation& colour = **interaction::find_operation("colour");
+  ASSERT_TRUE(perform_operation(session(), colour,
+                                *completed_fields(colour, {{"colour", "#2040c0"}}, session().selection())));
+  open_menu("properties.toml");
+  const auto& use = *session().menu().use();
+  const auto picked = [&] { return *use.settings().value_of(widget("Any colour")).text(); };
+  EXPECT_TRUE(until([&] { return picked() == "#2040c0"; }));
+  EXPECT_EQ(use.value_of(widget("Stiffness")), world::TouchProperties().stiffness);
+  // By keys, and given up.
+  key(Qt::Key_Down);
+  key(Qt::Key_Down);
+  ASSERT_EQ(use.lit(), &widget("Any colour"));
+  key(Qt::Key_Right);
+  key(Qt::Key_Right);
+  EXPECT_TRUE(until([&] { return session().history().trying(); }));
+  key(Qt::Key_Escape);
+  EXPECT_TRUE(until([&] { return !session().history().trying(); }));
+  EXPECT_EQ(picked(), "#2040c0");
+  EXPECT_EQ(interaction::colour_text(*colour_of(box)), "#2040c0");
+  EXPECT_EQ(session().history().undo_name(), "Colour");
+  ASSERT_TRUE(session().history().undo());
+  EXPECT_FALSE(colour_of(box));
+  // A menu that closes while something is held takes it back, too.
+  key(Qt::Key_Right);
+  EXPECT_TRUE(until([&] { return session().history().trying(); }));
+  session().menu().close();
+  EXPECT_TRUE(until([&] { return !session().history().trying(); }));
+  EXPECT_FALSE(colour_of(box));
 }
 
 TEST_F(MenuActionsTest, ANumberIsTypedSteppedAndHeld) {
