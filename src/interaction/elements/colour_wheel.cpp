@@ -68,6 +68,11 @@ Hsv hsv_of(const world::Colour& colour, const Hsv& otherwise) {
   return hsv;
 }
 
+Hsv with_seen_hue(const Hsv& colour) {
+  constexpr double kGrey = 0.02;  // of the strongest channel, from the weakest
+  return colour.saturation * colour.value < kGrey ? Hsv{colour.hue, 1.0, 1.0} : colour;
+}
+
 std::string colour_text(const world::Colour& colour) {
   const auto byte = [&](std::size_t i) {
     return std::lround(255.0 * std::clamp(double(colour[i]), 0.0, 1.0));

@@ -18,6 +18,9 @@ struct Hsv {
   bool operator==(const Hsv&) const = default;
 };
 
+/// A colour whose hue is seen when it is turned: a grey or black becomes the full hue.
+Hsv with_seen_hue(const Hsv& colour);
+
 world::Colour rgb_of(const Hsv& colour);
 /// Greys have no hue, and black no saturation: these are taken from `otherwise`.
 Hsv hsv_of(const world::Colour& colour, const Hsv& otherwise = {});

@@ -247,6 +247,10 @@ void ElementUse::hold(const HandleName& handle, ChosenBy by, const Vector2& plac
   held_ = Hold{handle, by, time_, time_ + kRepeatsAfter};
   if (handle.of != nullptr && handle.of->can_be_chosen() && handle.of->kind != WidgetKind::Item)
     lit_ = handle.of;
+  if (handle.kind == HandleKind::Ring) {
+    Hsv& colour = settings_.of(*handle.of).colour;
+    colour = with_seen_hue(colour);
+  }
   const bool steps = handle.kind == HandleKind::Less || handle.kind == HandleKind::More;
   steps ? step_handle(handle) : drag(place);
 }
@@ -583,6 +587,7 @@ void ElementUse::change_colour(const Widget& widget, ElementKey key) {
   switch (key) {
     case ElementKey::Left:
     case ElementKey::Right: {
+      colour = with_seen_hue(colour);
       const double hue = colour.hue + (key == ElementKey::Right ? kHueStep : -kHueStep);
       colour.hue = hue - kWholeCircle * std::floor(hue / kWholeCircle);
       return;

@@ -1,6 +1,7 @@
 #include "interaction/operations/present_value.h"
 
 #include <array>
+#include <optional>
 
 #include "interaction/elements/colour_wheel.h"
 #include "interaction/operations/looks/material_edits.h"
@@ -11,9 +12,11 @@ namespace {
 
 using world::Material;
 
+Value number_or_nothing(const std::optional<double>& number) { return number ? Value(*number) : Value(); }
+
 Value present_feel(const world::TouchProperties& touch, std::string_view argument) {
-  if (argument == "stiffness") return touch.stiffness;
-  if (argument == "damping") return touch.damping;
+  if (argument == "stiffness") return number_or_nothing(touch.stiffness);
+  if (argument == "damping") return number_or_nothing(touch.damping);
   if (argument == "texture")
     return touch.texture.empty() ? "smooth" : touch.texture.substr(0, touch.texture.find(':'));
   return {};

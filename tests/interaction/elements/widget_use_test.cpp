@@ -342,6 +342,21 @@ TEST(WidgetUse, ADragKeepsWhatItHoldsAndIsChosenOnce) {
   EXPECT_FALSE(it.use.is_holding());
 }
 
+TEST(WidgetUse, TheRingOfAGreyGivesTheFullHue) {
+  for (const char* const grey : {"#cccccc", "#000000", "#ffffff"}) {
+    UsedElement it("[[item]]\nname = \"Colour\"\nkind = \"colour\"\nvalue = \"" + std::string(grey) + "\"\n");
+    const Widget& picker = it.widget("Colour");
+    const ColourWheel wheel = wheel_of(*it.use.layout().widget(picker), it.element.text_height);
+    EXPECT_EQ(it.hand.click_at(wheel.place_of_hue(2.0 * std::numbers::pi / 3.0)), "Colour");
+    EXPECT_EQ(*it.use.settings().value_of(picker).text(), "#00ff00") << grey;
+  }
+  UsedElement it("[[item]]\nname = \"Colour\"\nkind = \"colour\"\nvalue = \"#808080\"\n");
+  it.use.press(ElementKey::Down);
+  it.use.press(ElementKey::Right);
+  it.use.press(ElementKey::Enter);
+  EXPECT_EQ(it.use.settings().of(it.widget("Colour")).colour.saturation, 1.0);
+}
+
 constexpr const char* kSlider =
     "[[item]]\nname = \"Size\"\nkind = \"slider\"\nleast = 10\nmost = 20\nvalue = 12\n"
     "operation = \"reshape\"\nvalue_as = \"radius\"\nvalue_times = 0.001\n[[item]]\nname = \"Below\"\n";
@@ -360,8 +375,10 @@ TEST(WidgetUse, ASliderIsDraggedAlongItsGrooveAndChosenOnceWhenItIsLetGo) {
     EXPECT_EQ(it.use.changing(), &slider);
     double value = 0.0;
     for (int way = 0; way < 3; ++way) {
-      const double share = random.uniform(-0.5, 1.5);
-      const Vector2 to(groove.left + share * (groove.right - groove.left), random.uniform(-0.1, 0.1));
+      // The button holds it anywhere, a push as long as there is ground to push.
+      const double share = pushes ? random.uniform(0.0, 1.0) : random.uniform(-0.5, 1.5);
+      const double up = pushes ? 0.0 : random.uniform(-0.1, 0.1);
+      const Vector2 to(groove.left + share * (groove.right - groove.left), laid.centre.y() + up);
       chosen += it.hand.move(it.hand.over(to, front), 0.1, !pushes);
       value = 10.0 + 10.0 * std::clamp(share, 0.0, 1.0);
       EXPECT_NEAR(it.use.value_of(slider), value, 1e-9);

@@ -47,7 +47,7 @@ TEST_F(PresentValue, IsNothingWhereTheObjectHasNone) {
   EXPECT_TRUE(of("a", "create", "shape").is_null());
   EXPECT_TRUE(of("a", "no-such", "colour").is_null());
   EXPECT_EQ(of("a", "feel", "texture"), Value("smooth"));
-  run(R"({"op": "create", "name": "empty"})");
+  run(R"({"op": "create", "shape": "group", "name": "empty"})");
   EXPECT_TRUE(of("empty", "colour", "colour").is_null());
   run(R"({"op": "place", "object": "a", "scale": [1, 2, 1]})");
   EXPECT_TRUE(of("a", "place", "factor").is_null());

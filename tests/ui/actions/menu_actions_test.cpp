@@ -265,11 +265,14 @@ TEST_F(MenuActionsTest, ValuesBeginAsThoseOfTheSelectionAndGivingUpLeavesNoTrace
   const interaction::Operation& colour = **interaction::find_operation("colour");
   ASSERT_TRUE(perform_operation(session(), colour,
                                 *completed_fields(colour, {{"colour", "#2040c0"}}, session().selection())));
+  const interaction::Operation& feel = **interaction::find_operation("feel");
+  ASSERT_TRUE(perform_operation(session(), feel,
+                                *completed_fields(feel, {{"stiffness", 700.0}}, session().selection())));
   open_menu("properties.toml");
   const auto& use = *session().menu().use();
   const auto picked = [&] { return *use.settings().value_of(widget("Any colour")).text(); };
   EXPECT_TRUE(until([&] { return picked() == "#2040c0"; }));
-  EXPECT_EQ(use.value_of(widget("Stiffness")), world::TouchProperties().stiffness);
+  EXPECT_EQ(use.value_of(widget("Stiffness")), 700.0);
   // By keys, and given up.
   key(Qt::Key_Down);
   key(Qt::Key_Down);
@@ -281,7 +284,8 @@ TEST_F(MenuActionsTest, ValuesBeginAsThoseOfTheSelectionAndGivingUpLeavesNoTrace
   EXPECT_TRUE(until([&] { return !session().history().trying(); }));
   EXPECT_EQ(picked(), "#2040c0");
   EXPECT_EQ(interaction::colour_text(*colour_of(box)), "#2040c0");
-  EXPECT_EQ(session().history().undo_name(), "Colour");
+  EXPECT_EQ(session().history().undo_name(), "Feel");
+  ASSERT_TRUE(session().history().undo());
   ASSERT_TRUE(session().history().undo());
   EXPECT_FALSE(colour_of(box));
   // A menu that closes while something is held takes it back, too.
