@@ -52,6 +52,16 @@ Vector3 kept_in_sight(const Vector3& centre, const interaction::View& view, doub
   return view.world_from_eye * in_eye;
 }
 
+/// The part of a pop-up menu's plane that the picture shows, less a margin; nothing behind the eye.
+std::optional<interaction::LaidBox> seen_of(const ElementFrame& frame, const interaction::View& view,
+                                            double aspect) {
+  const Vector3 in_eye = view.world_from_eye.inverse() * frame.centre;
+  if (!(in_eye.z() < 0.0)) return std::nullopt;
+  constexpr double kShare = 0.97;
+  const Vector2 seen = -in_eye.z() * interaction::half_picture(view, aspect);
+  return interaction::LaidBox{-in_eye.head<2>() / frame.size, kShare * seen / frame.size};
+}
+
 std::size_t language_of(const Element& element, std::string_view language) {
   const auto found = std::ranges::find(element.languages, language);
   return found == element.languages.end() ? 0 : std::size_t(found - element.languages.begin());
@@ -160,12 +170,17 @@ base::Result<void> SessionMenu::open(Element element, std::string_view language,
       frame.centre = spot.way->origin + spot.distance * spot.way->direction;
       frame.size *= spot.distance / view.distance;
     }
-    const auto laid = interaction::lay_out(element, index, measure);
+    interaction::ShownParts shown;
+    if (const auto seen = seen_of(frame, view, parts_.aspect))
+      shown.room = interaction::LaidBox{Vector2::Zero(), seen->half};
+    const auto laid = interaction::lay_out(element, index, measure, {}, shown);
     frame.centre = kept_in_sight(frame.centre, view, parts_.aspect, frame.size * laid.sheets.front().half);
   }
   parts_.menu_pops_up = frame;
   parts_.menu.open(std::move(element), index, measure, frame);
   parts_.menu.place(parts_.menu_frame());
+  if (parts_.menu.use()->element().place == ElementPlace::Pointer)
+    if (const auto seen = seen_of(frame, view, parts_.aspect)) parts_.menu.keep_within(*seen);
   (void)parts_.hands.take_watched();
   parts_.hands.watch(true);
   return {};

@@ -26,6 +26,7 @@ Pose pointing_from_eye(const Pose& eye, const Vector3& place) {
 }  // namespace
 
 bool SessionParts::is_hand_there(std::size_t pointer) const {
+  if (pointer >= hands.pointers()) return false;
   const PointerView& view = hands.view(pointer);
   if (is_mouse(pointer) && !hand_is_aimed) return false;
   return view.time != 0 && view.status != devices::DeviceStatus::Lost &&

@@ -87,8 +87,8 @@ std::array<Vector2, 3> ColourWheel::corners() const {
 
 ColourWheel::Part ColourWheel::part_at(const Vector2& place) const {
   const double r = (place - centre).norm();
-  if (r >= inner && r <= outer) return Part::Ring;
-  return std::ranges::min(shares_at(corners(), place)) >= 0.0 ? Part::Triangle : Part::None;
+  if (r > outer) return Part::None;
+  return r >= inner ? Part::Ring : Part::Triangle;
 }
 
 double ColourWheel::outside_triangle(const Vector2& place) const {

@@ -37,6 +37,7 @@ struct ColourWheel {
 
   enum class Part : std::uint8_t { None, Ring, Triangle };
 
+  /// What is between the triangle and the ring stands for the nearest shade.
   Part part_at(const Vector2& place) const;
   std::array<Vector2, 3> corners() const;
   /// Distance from the triangle, < 0 inside.

@@ -321,6 +321,12 @@ class ElementReader {
     }
   }
 
+  /// The line of an item; one without a name has that of the element.
+  const io::Place& place_of(const Widget& widget, const io::Place& otherwise) const {
+    const auto found = places_.find(widget.name);
+    return widget.name.empty() || found == places_.end() ? otherwise : found->second;
+  }
+
   /// On a sphere lie things of one size, as many as can still be told apart.
   void check_daisy(const Element& element, const io::Place& place) {
     if (element.kind != ElementKind::Daisy) return;
@@ -330,8 +336,9 @@ class ElementReader {
     for (const Widget& widget : element.widgets)
       if (widget.kind != WidgetKind::Item && widget.kind != WidgetKind::Check &&
           widget.kind != WidgetKind::Radio)
-        problems_.add(place, fmt::format("the element: on a daisy lie items, checks and radios, not '{}'.",
-                                         widget.name.empty() ? widget.text.front() : widget.name));
+        problems_.add(place_of(widget, place),
+                      fmt::format("the element: on a daisy lie items, checks and radios, not '{}'.",
+                                  widget.name.empty() ? widget.text.front() : widget.name));
   }
 
   /// One default and one cancel in a menu, and one radio that is on in each group of it.
@@ -339,15 +346,15 @@ class ElementReader {
     std::set<std::string> groups;
     int defaults = 0, cancels = 0;
     for (const Widget& widget : widgets) {
-      defaults += widget.is_default ? 1 : 0;
-      cancels += widget.is_cancel ? 1 : 0;
       if (widget.kind == WidgetKind::Radio && widget.checked && !groups.insert(widget.group).second)
-        problems_.add(place,
+        problems_.add(place_of(widget, place),
                       fmt::format("item '{}': another radio of its group is checked, too.", widget.name));
+      if (widget.is_default && ++defaults > 1)
+        problems_.add(place_of(widget, place), "the element: only one item can be the default.");
+      if (widget.is_cancel && ++cancels > 1)
+        problems_.add(place_of(widget, place), "the element: only one item can be the cancel.");
       check_only_one(widget.widgets, place);
     }
-    if (defaults > 1) problems_.add(place, "the element: only one item can be the default.");
-    if (cancels > 1) problems_.add(place, "the element: only one item can be the cancel.");
   }
 
   void read_range(KeyReader& keys, Widget& widget) {

@@ -10,22 +10,23 @@ namespace icome::interaction {
 namespace {
 
 // In heights of a capital letter.
-constexpr double kRow = 2.4;         // height of a row
-constexpr double kBold = 1.15;       // times as wide are bold letters, of titles and of what is chosen
-constexpr double kPadding = 0.9;     // from the border to text
-constexpr double kIconRoom = 2.2;    // for a square before the text
-constexpr double kMarkRoom = 2.0;    // for a tick before it
-constexpr double kArrowRoom = 1.6;   // for the arrow of a menu behind it
-constexpr double kSeparator = 0.8;   // height of a separator
-constexpr double kSliderRoom = 9.0;  // least width of a groove
-constexpr double kHandle = 2.2;      // width of what makes a number less or more, and of a bar that scrolls
-constexpr double kFieldRoom = 4.0;   // least width of a field of digits
-constexpr double kWheel = 15.0;      // diameter of a ring of hues
-constexpr double kRingWidth = 1.9;   // of that ring
-constexpr double kCodeRoom = 8.5;    // for the code and the square of a colour, behind its name
-constexpr double kGap = 0.5;         // between buttons, and between an item and its menu
-constexpr double kLine = 1.7;        // height of a line of words
-constexpr double kRoom = 0.4;        // above and below the rows of a menu, and the words of a dialog
+constexpr double kRow = 2.4;             // height of a row
+constexpr double kBold = 1.15;           // times as wide are bold letters, of titles and of what is chosen
+constexpr double kPadding = 0.9;         // from the border to text
+constexpr double kIconRoom = 2.2;        // for a square before the text
+constexpr double kMarkRoom = 2.0;        // for a tick before it
+constexpr double kArrowRoom = 1.6;       // for the arrow of a menu behind it
+constexpr double kSeparator = 0.8;       // height of a separator
+constexpr std::uint32_t kLeastRows = 3;  // that are seen of a menu for which there is no room
+constexpr double kSliderRoom = 9.0;      // least width of a groove
+constexpr double kHandle = 2.2;     // width of what makes a number less or more, and of a bar that scrolls
+constexpr double kFieldRoom = 4.0;  // least width of a field of digits
+constexpr double kWheel = 15.0;     // diameter of a ring of hues
+constexpr double kRingWidth = 1.9;  // of that ring
+constexpr double kCodeRoom = 8.5;   // for the code and the square of a colour, behind its name
+constexpr double kGap = 0.5;        // between buttons, and between an item and its menu
+constexpr double kLine = 1.7;       // height of a line of words
+constexpr double kRoom = 0.4;       // above and below the rows of a menu, and the words of a dialog
 
 const std::string& text_of(const Widget& widget, std::size_t language) {
   return language < widget.text.size() && !widget.text[language].empty() ? widget.text[language]
@@ -94,7 +95,8 @@ class Arranger {
   void arrange_element() {
     switch (element_.kind) {
       case ElementKind::Menu:
-        return arrange_menu_sheet({element_.widgets, nullptr, element_.rows}, title(), std::nullopt);
+        return arrange_menu_sheet(fitted({element_.widgets, nullptr, element_.rows}, title()), title(),
+                                  std::nullopt);
       case ElementKind::Toolbar:
         return arrange_grid();
       case ElementKind::Dialog:
@@ -112,11 +114,8 @@ class Arranger {
   bool arrange_menu(const Widget& opener) {
     const LaidWidget* const found = layout_.widget(opener);
     if (found == nullptr) return false;
-    const LaidSheet& sheet = layout_.sheets[found->sheet];
-    const Vector2 corner(
-        std::max(sheet.centre.x() + sheet.half.x(), found->centre.x() + found->half.x()) + kGap * unit_,
-        found->centre.y() + found->half.y());
-    arrange_menu_sheet({opener.widgets, &opener, opener.rows}, "", corner);
+    const Rows rows = fitted({opener.widgets, &opener, opener.rows}, "");
+    arrange_menu_sheet(rows, "", corner_beside(*found, size_of_menu(rows, "")));
     return true;
   }
 
@@ -301,11 +300,48 @@ class Arranger {
     layout_.columns.push_back(column);
   }
 
+  double height_of_head(const std::string& title) const { return title.empty() ? 0.0 : kRow * unit_; }
+
+  Vector2 size_of_menu(const Rows& rows, const std::string& title) const {
+    const Vector2 inner = size_of_rows(rows);
+    return {std::max(inner.x(), width_of_title(title)),
+            inner.y() + height_of_head(title) + 2.0 * kRoom * unit_};
+  }
+
+  /// The rows of a menu, of which no more are seen than there is room for.
+  Rows fitted(Rows rows, const std::string& title) const {
+    if (!shown_.room || rows.most > 0) return rows;
+    const bool can_scroll = std::ranges::none_of(rows.widgets, [](const Widget& widget) {
+      return widget.kind == WidgetKind::List || widget.kind == WidgetKind::Tabs ||
+             widget.kind == WidgetKind::Colour;
+    });
+    const double room = 2.0 * shown_.room->half.y();
+    if (!can_scroll || size_of_menu(rows, title).y() <= room) return rows;
+    const double free = room - height_of_head(title) - 2.0 * kRoom * unit_;
+    rows.most = std::uint32_t(std::max(double(kLeastRows), std::floor(free / (kRow * unit_))));
+    return rows;
+  }
+
+  /// The upper left corner of a menu beside the item that opens it: to the right of its sheet, or to the left
+  /// where only there is room.
+  Vector2 corner_beside(const LaidWidget& opener, const Vector2& size) const {
+    const LaidSheet& sheet = layout_.sheets[opener.sheet];
+    const double gap = kGap * unit_, top = opener.centre.y() + opener.half.y();
+    const double right =
+        std::max(sheet.centre.x() + sheet.half.x(), opener.centre.x() + opener.half.x()) + gap;
+    if (!shown_.room) return {right, top};
+    const Vector2 low = shown_.room->centre - shown_.room->half,
+                  high = shown_.room->centre + shown_.room->half;
+    const double left = sheet.centre.x() - sheet.half.x() - gap - size.x();
+    const double last = high.x() - size.x();
+    const double x = right <= last ? right : left >= low.x() ? left : std::max(last, low.x());
+    return {x, std::min(std::max(top, low.y() + size.y()), high.y())};
+  }
+
   /// A sheet with rows below each other: the element's own in its middle, another one with its corner there.
   void arrange_menu_sheet(const Rows& rows, const std::string& title, const std::optional<Vector2>& corner) {
-    const double head = title.empty() ? 0.0 : kRow * unit_, room = kRoom * unit_;
-    const Vector2 inner = size_of_rows(rows);
-    const Vector2 size(std::max(inner.x(), width_of_title(title)), inner.y() + head + 2.0 * room);
+    const double head = height_of_head(title), room = kRoom * unit_;
+    const Vector2 size = size_of_menu(rows, title);
     const Vector2 half = 0.5 * size, at = corner.value_or(Vector2(-half.x(), half.y()));
     add_sheet(rows.of, at + Vector2(half.x(), -half.y()), half, title);
     place_rows(rows, at - Vector2(0.0, head + room), size.x());

@@ -100,6 +100,9 @@ struct ShownParts {
   /// The first row that is seen, by the List, or the Item that opens the menu; null: the element's own.
   std::unordered_map<const Widget*, std::size_t> first_rows = {};
   std::unordered_map<const Widget*, const Widget*> pages = {};  // by their Tabs
+  /// Menus stay in there as far as they can: they open to the left where there is no room to the right, and
+  /// scroll where they are too high. Nothing: they open to the right, whole.
+  std::optional<LaidBox> room = {};
 
   /// The page that shows; null: there is none.
   const Widget* page_of(const Widget& tabs) const;

@@ -100,6 +100,11 @@ void ElementUse::show_chosen_rows(const std::vector<Widget>& widgets) {
   if (&widgets == &element_.widgets && !shown_.first_rows.empty()) lay_out_again();
 }
 
+void ElementUse::keep_within(const LaidBox& room) {
+  shown_.room = room;
+  lay_out_again();
+}
+
 double ElementUse::distance_to(const base::Vector3& place) const {
   const Vector2 on_plane = frame_.projected(place);
   double aside = std::numeric_limits<double>::infinity();
@@ -238,6 +243,8 @@ std::optional<Choice> ElementUse::press_at(const Vector2& place, ChosenBy by) {
     hold({*part, &widget}, by, place);
     return std::nullopt;
   }
+  // Its text, which sets nothing.
+  if (widget.kind == WidgetKind::Colour || widget.kind == WidgetKind::Slider) return std::nullopt;
   return choose(widget, by);
 }
 
@@ -377,7 +384,19 @@ std::optional<Choice> ElementUse::choose(std::string_view name_or_text) {
   return choose(*way.back(), ChosenBy::Name);
 }
 
-bool ElementUse::show(std::string_view name_or_text) { return show(way_to(element_.widgets, name_or_text)); }
+bool ElementUse::show(std::string_view name_or_text) {
+  const std::vector<const Widget*> way = way_to(element_.widgets, name_or_text);
+  if (!show(way)) return false;
+  if (settings_.is_usable(*way.back())) light_by_key(*way.back());
+  return true;
+}
+
+/// Lights a widget that is in sight, wherever the pointer is; a daisy turns to it.
+void ElementUse::light_by_key(const Widget& widget) {
+  light_up(&widget);
+  if (const LaidWidget* const laid = layout_.widget(widget); laid != nullptr && laid->sheet == 0)
+    front_ = laid->centre;
+}
 
 /// Shows what lies on the way, and the last one.
 bool ElementUse::show(const std::vector<const Widget*>& way) {
@@ -478,9 +497,7 @@ void ElementUse::move_light(std::ptrdiff_t by, bool goes_round) {
   }
   const Widget* const widget = way[std::size_t(next)];
   bring_into_sight(*widget);
-  light_up(widget);
-  if (const LaidWidget* const laid = layout_.widget(*widget); laid != nullptr && laid->sheet == 0)
-    front_ = laid->centre;
+  light_by_key(*widget);
 }
 
 /// Rows that are seen at once of those among which the light is.

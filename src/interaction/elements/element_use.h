@@ -46,6 +46,8 @@ class ElementUse {
   /// Puts the element elsewhere, such as along with the head.
   void place(const ElementFrame& frame) { frame_ = frame; }
   const ElementFrame& frame() const { return frame_; }
+  /// Keeps menus in a part of its plane, such as the picture; see ShownParts::room.
+  void keep_within(const LaidBox& room);
 
   /// Takes the pointer; called at any rate, also once a tick. Gives what it chose, which is told once: a push
   /// counts again only when the hand has come back nearly to the plane (hysteresis). What is held, such as a
@@ -77,8 +79,8 @@ class ElementUse {
   /// The widget whose value is being changed: that of a Slider, Number or Colour which is held, or of a
   /// Colour which keys change; it is chosen when that ends. Null: none is.
   const Widget* changing() const;
-  /// Brings a widget into sight: its page, its menu, its row. False: there is none of that name or text, or
-  /// something that it is in is disabled.
+  /// Brings a widget into sight, its page, its menu, its row, and lights it. False: there is none of that
+  /// name or text, or something that it is in is disabled.
   bool show(std::string_view name_or_text);
   /// Chooses a widget by its name, or by its text in any language, as speech does, also one of a menu that is
   /// not open; nothing where there is none, or it is disabled.
@@ -143,6 +145,7 @@ class ElementUse {
   const LaidHandle* handle_under(const Vector2& place) const;
   void light_under_pointer(bool is_reached);
   void light_up(const Widget* widget);
+  void light_by_key(const Widget& widget);
   std::optional<Choice> press_at(const Vector2& place, ChosenBy by);
   void hold(const HandleName& handle, ChosenBy by, const Vector2& place);
   std::optional<Choice> keep_holding(const Vector2& place);

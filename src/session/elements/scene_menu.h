@@ -46,6 +46,8 @@ class SceneMenu {
 
   // The following only while it is open.
   void place(const interaction::ElementFrame& frame) { use_->place(frame); }
+  /// ElementUse::keep_within().
+  void keep_within(const interaction::LaidBox& room) { use_->keep_within(room); }
   /// Takes the hands' ticks since the last call, in order, and lets time pass. The hand that is near uses the
   /// menu, as long as it stays near.
   std::vector<MenuChoice> take(std::span<const MenuTick> ticks, double now);

@@ -1,10 +1,13 @@
 #include "ui/actions/menu_actions.h"
 
+#include <fmt/format.h>
+
 #include <QElapsedTimer>
 #include <QFileDialog>
 #include <QLocale>
 #include <utility>
 
+#include "base/near_names.h"
 #include "interaction/elements/element_file.h"
 #include "interaction/operations/present_value.h"
 #include "ui/actions/actions.h"
@@ -107,12 +110,35 @@ void MenuActions::take_ticks_over(std::vector<Widget>& widgets) const {
   }
 }
 
+/// Says which items would do a command that the window has not got.
+void MenuActions::tell_unknown_commands(const Element& element) const {
+  std::vector<std::string> names;
+  for (const QAction* const action : window_.findChildren<QAction*>())
+    if (!action->objectName().isEmpty()) names.push_back(action->objectName().toStdString());
+  std::vector<std::string> unknown;
+  const auto look = [&](const auto& self, const std::vector<Widget>& widgets) -> void {
+    for (const Widget& widget : widgets) {
+      if (!widget.command.empty() && command_of(widget) == nullptr)
+        unknown.push_back(fmt::format("item '{}': the window has no command '{}'{}", widget.name,
+                                      widget.command, base::suggestion(widget.command, names)));
+      self(self, widget.widgets);
+    }
+  };
+  look(look, element.widgets);
+  if (unknown.empty()) return;
+  hooks_.tell({.weight = Note::Weight::Warning,
+               .text = "The menu has items that do nothing.",
+               .topic = kMenuTopic,
+               .details = std::move(unknown)});
+}
+
 void MenuActions::toggle(const session::MenuSpot& spot) {
   if (session_.menu().use() != nullptr) return session_.menu().close();
   auto made = element();
   if (made) {
     pops_up_ = made->place == interaction::ElementPlace::Pointer;
     take_ticks_over(made->widgets);
+    tell_unknown_commands(*made);
     const std::string language = QLocale::system().name().section('_', 0, 0).toStdString();
     if (const auto opened = session_.menu().open(std::move(*made), language, spot); !opened)
       made = tl::unexpected(opened.error());

@@ -35,6 +35,8 @@ class MenuActions {
   base::Result<interaction::Element> element() const;
   /// Opens the menu there; the one that is open closes instead.
   void toggle(const session::MenuSpot& spot);
+  /// Is the menu that toggle() opened one that lies over the scene where the pointer was?
+  bool pops_up() const { return pops_up_; }
   /// Uses the menu of a file from now on; tells where that does not work.
   void choose(const std::filesystem::path& file);
   /// Enables the items of the open menu that can be done now. Call it where that may have changed.
@@ -42,6 +44,7 @@ class MenuActions {
 
  private:
   std::optional<bool> is_possible(const interaction::Widget& widget) const;
+  void tell_unknown_commands(const interaction::Element& element) const;
   void take_ticks_over(std::vector<interaction::Widget>& widgets) const;
   void choose_file();
   void hear(const session::MenuChoice& choice);

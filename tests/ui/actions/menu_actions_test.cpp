@@ -3,6 +3,7 @@
 
 #include <QFile>
 #include <QKeyEvent>
+#include <QLabel>
 #include <cmath>
 
 #include "devices/simulated/simulated_device.h"
@@ -398,6 +399,61 @@ TEST_F(MenuActionsTest, AMenuOfAFileIsUsedAndAWrongOneTold) {
   EXPECT_NEAR(beside(), before, 1e-9);
   EXPECT_EQ(settings.value("menu/file").toString(), good.fileName());
   session().menu().close();
+}
+
+TEST_F(MenuActionsTest, APanelForTheOtherHandIsRefusedWithoutOneAndUnknownCommandsAreTold) {
+  const auto use_file = [&](const char* name, const char* toml) {
+    QFile menu(file(name));
+    EXPECT_TRUE(menu.open(QIODevice::WriteOnly));
+    menu.write(toml);
+    menu.close();
+    settings_.setValue("menu/file", menu.fileName());
+    key(Qt::Key_Space);
+  };
+  const auto is_told = [&](const char* words) {
+    return until([&] {
+      for (const QLabel* const label : window_->findChildren<QLabel*>())
+        if (label->text().contains(words)) return true;
+      return false;
+    });
+  };
+  use_file("hand.toml", "at = \"hand\"\n[[item]]\nname = \"A\"\n");
+  EXPECT_FALSE(is_open());
+  EXPECT_TRUE(is_told("connect another device"));
+  use_file("unknown.toml", "[[item]]\nname = \"A\"\ncommand = \"edit.und\"\n");
+  EXPECT_TRUE(is_open());
+  EXPECT_TRUE(is_told("items that do nothing"));
+  session().menu().close();
+}
+
+TEST_F(MenuActionsTest, AMenuThatPopsUpStaysInThePictureWithAllThatIsOpen) {
+  QFile deep(file("deep.toml"));
+  ASSERT_TRUE(deep.open(QIODevice::WriteOnly));
+  QByteArray toml = "at = \"pointer\"\n", item = "item";
+  for (int level = 1; level <= 8; ++level, item += ".item")
+    toml += "[[" + item + "]]\nname = \"A long name of level " + QByteArray::number(level) + "\"\n";
+  for (int row = 0; row < 200; ++row) toml += "[[item]]\nname = \"" + QByteArray::number(row) + "\"\n";
+  deep.write(toml);
+  deep.close();
+  settings_.setValue("menu/file", deep.fileName());
+  const QSizeF size = mouse_.size();
+  session().view().set_aspect(size.width() / size.height());
+  for (const QPointF at : {QPointF(size.width() - 5.0, size.height() - 5.0), QPointF(5.0, 5.0)}) {
+    mouse_.move(at);
+    key(Qt::Key_Space);
+    ASSERT_TRUE(is_open());
+    key(Qt::Key_Down);
+    for (int level = 1; level < 8; ++level) key(Qt::Key_Right);
+    const interaction::ElementLayout& layout = session().menu().use()->layout();
+    ASSERT_EQ(layout.sheets.size(), 8U);
+    for (const interaction::LaidSheet& sheet : layout.sheets)
+      for (const double side : {-1.0, 1.0}) {
+        const QPointF corner = pixel_of(sheet.centre + side * sheet.half);
+        EXPECT_TRUE(QRectF({-1.0, -1.0}, size + QSizeF(2.0, 2.0)).contains(corner))
+            << corner.x() << ' ' << corner.y();
+      }
+    session().menu().close();
+  }
 }
 
 /// A stylus alone, without a mouse in the scene.
