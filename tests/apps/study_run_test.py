@@ -58,6 +58,20 @@ class StudyRunTest(ProgramTest):
                 self.assertAlmostEqual(float(last[0]), time_of["time"], places=3)
                 self.assertAlmostEqual(len(trace), (float(last[0]) - float(first[0])) * 1000 + 1, delta=1)
 
+    def test_trials_that_the_time_limit_ends_are_told(self):
+        slow = self.study("hidden", template="menu")
+        done = self.succeeds("study", "run", slow, "--simulate", 1, "--json", "--data", self.folder / "all")
+        self.assertEqual(json.loads(done.stdout)["ended_by_limit"], 0)
+        self.assertNotIn("time limit", done.stderr)
+        slow.write_text(slow.read_text().replace("limit = 60", "limit = 1"))
+        done = self.succeeds("study", "run", slow, "--simulate", 1, "--json", "--data", self.folder / "few")
+        answer = json.loads(done.stdout)
+        ended = [trial for table in (self.folder / "few").rglob("*_beh.tsv") for trial in rows(table)
+                 if trial["completed"] == "no"]
+        self.assertEqual(answer["ended_by_limit"], len(ended))
+        self.assertGreater(len(ended), 0)
+        self.assertIn(f"{len(ended)} of {answer['trials']} trials were ended by the time limit", done.stderr)
+
     def test_everything_simulated_is_stamped(self):
         data = self.simulate(self.study(), 1)
         for path in data.rglob("*"):

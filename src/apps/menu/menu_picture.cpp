@@ -90,8 +90,10 @@ base::Result<charts::Image> draw_element(const ElementUse& use, const MenuOption
   const auto faded = half_of(far, **scene, camera, theme);
   if (!faded) return tl::unexpected(faded.error());
   const auto& widgets = use.layout().widgets;
-  const auto lit = std::ranges::find_if(
-      widgets, [&](const interaction::LaidWidget& it) { return use.settings().is_usable(*it.widget); });
+  // What was asked to be shown, else the first that can be chosen.
+  const auto lit = std::ranges::find_if(widgets, [&](const interaction::LaidWidget& it) {
+    return use.lit() != nullptr ? it.widget == use.lit() : use.settings().is_usable(*it.widget);
+  });
   const base::Vector2 place = lit == widgets.end() ? base::Vector2::Zero() : lit->centre;
   rest_at(near, use.frame().in_world(place) + 0.001 * use.frame().normal(), 0.0);
   const auto opaque = half_of(near, **scene, camera, theme);

@@ -92,6 +92,20 @@ base::Result<study::DataFolder> open_data(const StudyOptions& options, const Ope
                                  *scenes);
 }
 
+struct TrialCount {
+  std::size_t all = 0, ended = 0;  // ended: by the time limit
+};
+
+TrialCount count_trials(const study::StudyData& data) {
+  TrialCount count;
+  for (const study::StudyData::Person& person : data.people)
+    for (const study::TrialRecord& trial : person.progress.trials) {
+      ++count.all;
+      count.ended += trial.measures.completed ? 0 : 1;
+    }
+  return count;
+}
+
 int simulate_people(const StudyOptions& options, const OpenedStudy& opened) {
   StatusLine status;
   auto data = open_data(options, opened);
@@ -108,11 +122,16 @@ int simulate_people(const StudyOptions& options, const OpenedStudy& opened) {
     tell("interrupted; the same command goes on with what is done.");
     return kDesignInterrupted;
   }
+  const auto records = study::read_study_data(data->path());
+  if (!records) return end_without_result(records.error(), status);
+  const TrialCount trials = count_trials(*records);
+  if (trials.ended > 0)
+    tell(fmt::format("{} of {} trials were ended by the time limit: can a hand get to all targets?",
+                     trials.ended, trials.all));
   if (options.json) {
-    const nlohmann::ordered_json answer = {{"study", opened.study.name},
-                                           {"simulated", true},
-                                           {"folder", data->path().string()},
-                                           {"participants", options.simulate}};
+    const nlohmann::ordered_json answer = {
+        {"study", opened.study.name},       {"simulated", true},    {"folder", data->path().string()},
+        {"participants", options.simulate}, {"trials", trials.all}, {"ended_by_limit", trials.ended}};
     return print_answer(answer.dump(2) + "\n");
   }
   return print_answer(fmt::format(

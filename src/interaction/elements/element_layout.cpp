@@ -10,23 +10,24 @@ namespace icome::interaction {
 namespace {
 
 // In heights of a capital letter.
-constexpr double kRow = 2.4;             // height of a row
-constexpr double kBold = 1.15;           // times as wide are bold letters, of titles and of what is chosen
-constexpr double kPadding = 0.9;         // from the border to text
-constexpr double kIconRoom = 2.2;        // for a square before the text
-constexpr double kMarkRoom = 2.0;        // for a tick before it
-constexpr double kArrowRoom = 1.6;       // for the arrow of a menu behind it
-constexpr double kSeparator = 0.8;       // height of a separator
-constexpr std::uint32_t kLeastRows = 3;  // that are seen of a menu for which there is no room
-constexpr double kSliderRoom = 9.0;      // least width of a groove
-constexpr double kHandle = 2.2;     // width of what makes a number less or more, and of a bar that scrolls
-constexpr double kFieldRoom = 4.0;  // least width of a field of digits
-constexpr double kWheel = 15.0;     // diameter of a ring of hues
-constexpr double kRingWidth = 1.9;  // of that ring
-constexpr double kCodeRoom = 8.5;   // for the code and the square of a colour, behind its name
-constexpr double kGap = 0.5;        // between buttons, and between an item and its menu
-constexpr double kLine = 1.7;       // height of a line of words
-constexpr double kRoom = 0.4;       // above and below the rows of a menu, and the words of a dialog
+constexpr double kRow = 2.4;         // height of a row
+constexpr double kBold = 1.15;       // times as wide are bold letters, of titles and of what is chosen
+constexpr double kPadding = 0.9;     // from the border to text
+constexpr double kIconRoom = 2.2;    // for a square before the text
+constexpr double kMarkRoom = 2.0;    // for a tick before it
+constexpr double kArrowRoom = 1.6;   // for the arrow of a menu behind it
+constexpr double kSeparator = 0.8;   // height of a separator
+constexpr double kSliderRoom = 9.0;  // least width of a groove
+constexpr double kHandle = 2.2;      // width of what makes a number less or more, and of a bar that scrolls
+constexpr double kFieldRoom = 4.0;   // least width of a field of digits
+constexpr double kWheel = 15.0;      // diameter of a ring of hues
+constexpr double kRingWidth = 1.9;   // of that ring
+constexpr double kCodeRoom = 8.5;    // for the code and the square of a colour, behind its name
+constexpr double kGap = 0.5;         // between buttons, and between an item and its menu
+constexpr double kLine = 1.7;        // height of a line of words
+constexpr double kRoom = 0.4;        // above and below the rows of a menu, and the words of a dialog
+
+constexpr std::uint32_t kLeastRows = 3;  // seen of a menu for which there is no room
 
 const std::string& text_of(const Widget& widget, std::size_t language) {
   return language < widget.text.size() && !widget.text[language].empty() ? widget.text[language]
