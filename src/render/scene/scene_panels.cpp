@@ -33,17 +33,46 @@ std::optional<Vector2> place_of(const SceneOverlay::Panel& panel, const Camera& 
 /// Its lower, then its upper corners in the clip space of the target.
 using Corners = Eigen::Matrix<float, 4, 4>;
 
-Corners corners_of_lying(const SceneOverlay::Panel& panel, const Camera& camera,
-                         const PictureWindow& window) {
+Corners corners_behind(const SceneOverlay::Panel& panel, double behind, const Camera& camera,
+                       const PictureWindow& window) {
   const Matrix4 clip_from_world = windowed(camera, window).clip_from_world();
   const auto& [right, up] = *panel.lying;
+  const base::Vector3 middle = *panel.at - behind * right.cross(up).normalized();
   Corners corners;
   for (int i = 0; i < 4; ++i) {
-    const base::Vector3 corner = *panel.at + ((i & 1) != 0 ? right : -right) + ((i & 2) != 0 ? up : -up);
+    const base::Vector3 corner = middle + ((i & 1) != 0 ? right : -right) + ((i & 2) != 0 ? up : -up);
     corners.col(i) = (clip_from_world * corner.homogeneous()).cast<float>();
   }
+  return corners;
+}
+
+Corners corners_of_lying(const SceneOverlay::Panel& panel, const Camera& camera,
+                         const PictureWindow& window) {
+  Corners corners = corners_behind(panel, 0.0, camera, window);
   corners.row(2).setZero();  // it may lie nearer to the eye than all else
   return corners;
+}
+
+/// The corners whose depth hides markers; nothing: none is hidden.
+std::optional<Corners> corners_of_depth(const SceneOverlay::Panel& panel, const Camera& camera,
+                                        const SceneTarget& target) {
+  if (!panel.at || !panel.lying || !std::isfinite(panel.hides_beyond)) return std::nullopt;
+  const Corners corners = corners_behind(panel, panel.hides_beyond, camera, target.window);
+  return corners.allFinite() ? std::optional(corners) : std::nullopt;
+}
+
+/// Draws what the program in use draws there as depth alone, whatever was before it.
+void draw_depth(unsigned program, const Corners& corners) {
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_ALWAYS);
+  glEnable(GL_DEPTH_CLAMP);
+  glUniform4fv(glGetUniformLocation(program, "corners"), 4, corners.data());
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  glDisable(GL_DEPTH_CLAMP);
+  glDepthFunc(GL_LESS);
+  glDisable(GL_DEPTH_TEST);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 /// Nothing when it is behind the eye.
@@ -116,6 +145,7 @@ base::Result<void> ScenePanels::draw(const SceneOverlay& overlay, PanelLayer lay
     set_uniform(name, "alpha", float(std::min(panel.alpha, 1.0)));
     glUniform4fv(glGetUniformLocation(name.name(), "corners"), 4, corners->data());
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    if (const auto depth = corners_of_depth(panel, camera, target)) draw_depth(name.name(), *depth);
   }
   glDisable(GL_BLEND);
   return {};

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -53,6 +54,9 @@ struct SceneOverlay {
     /// With `at`, its middle: from there to the middle of its right edge and of its upper one, m. It then
     /// lies in the scene, and what places a panel that faces the eye does not count.
     std::optional<std::array<base::Vector3, 2>> lying = {};
+    /// Of one that lies in the scene: what of balls, arrows, lines and dots is farther than this behind it is
+    /// hidden by it, m; what is nearer, such as a tip that pushes it, is not. Infinite: all is before it.
+    double hides_beyond = std::numeric_limits<double>::infinity();
     double scale = 1.0;  ///< pixels of the window for one of the picture, > 0
     double alpha = 1.0;  ///< 0 ... 1, of all of it
   };

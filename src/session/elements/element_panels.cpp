@@ -13,6 +13,8 @@ using interaction::LaidSheet;
 using interaction::LaidWidget;
 using Panel = render::SceneOverlay::Panel;
 
+constexpr double kSeenPushes = 3.0;  // depths of a push: as deep in an element the hand is seen
+
 bool is_daisy(const ElementUse& use) {
   return !use.layout().sheets.empty() && use.layout().sheets.front().sphere.has_value();
 }
@@ -60,6 +62,9 @@ Panel panel_at(const ElementUse& use, const ElementPart& part, const PartPlace& 
   const Vector3 top = middle + place.half.y() * place.pose.linear().col(1);
   panel.lying = {Vector3(in_world(frame, right) - *panel.at), Vector3(in_world(frame, top) - *panel.at)};
   panel.alpha = use.opacity() * std::clamp(0.6 + 0.8 * place.pose.linear()(2, 2), 0.2, 1.0);
+  constexpr double kOpaque = 0.9;
+  if (panel.alpha > kOpaque)
+    panel.hides_beyond = kSeenPushes * use.element().choosing.push_depth * frame.size;
   return panel;
 }
 

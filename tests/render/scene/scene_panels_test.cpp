@@ -1,5 +1,7 @@
 #include "render/scene/scene_panels.h"
 
+#include <limits>
+
 #include "render/live_renderer.h"
 
 namespace icome::render {
@@ -99,6 +101,32 @@ TEST(ScenePanels, OfTheSceneAreBehindMarkersAndOthersBefore) {
       {.picture = picture(9, 9, kGreenPixel, kGreenPixel), .at = Vector3(0.0, 0.0, 0.0)});
   image = LiveRenderer().draw(*scene, camera, look);
   EXPECT_TRUE(is_green(middle(image)));
+}
+
+TEST(ScenePanels, HideMarkersThatAreFarBehindThemAndNoOthers) {
+  DrawnWorld it;
+  it.add(box(1.0), at(0.0, 0.0, 0.5), coloured(kGreen));  // its front is at z = 1
+  const auto scene = ScenePublisher().publish(it.world);
+  const Camera camera = camera_at({0.0, 0.0, 4.0});
+  SceneLook look = plain_look();
+  look.overlay.panels.push_back({.picture = picture(64, 64, kRedPixel, kRedPixel),
+                                 .at = Vector3(0.0, 0.0, 0.0),
+                                 .lying = {{0.4 * Vector3::UnitX(), 0.4 * Vector3::UnitY()}},
+                                 .hides_beyond = 0.1});
+  const auto seen = [&](double z) {
+    look.overlay.balls = {{Vector3(0.0, 0.0, z), 0.05, charts::Colour{0.0, 0.0, 0.9}}};
+    return middle(LiveRenderer().draw(*scene, camera, look));
+  };
+  // Though the box is before them all.
+  EXPECT_TRUE(is_blue(seen(0.3)));
+  EXPECT_TRUE(is_blue(seen(-0.05)));
+  EXPECT_FALSE(is_blue(seen(-0.4)));
+  look.overlay.panels.front().hides_beyond = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(is_blue(seen(0.3))) << "the box hides it";
+  // A panel partly nearer than the nearest that the camera sees hides what is behind it, too.
+  look.overlay.panels.front().hides_beyond = 0.0;
+  look.overlay.panels.front().at = Vector3(0.0, 0.0, 3.9999);
+  EXPECT_FALSE(is_blue(seen(2.0)));
 }
 
 TEST(ScenePanels, AreMixedByTheirAlphaAndScaled) {
