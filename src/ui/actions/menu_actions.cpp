@@ -24,7 +24,7 @@ using interaction::WidgetKind;
 
 constexpr const char* kMenuFileKey = "menu/file";  // empty: the window's own
 constexpr const char* kMenuTopic = "menu";
-constexpr int kSlow = 50;  // ms, beyond which previews would make the hand that drags stutter
+constexpr int kSlowPreview = 50;  // ms, beyond which previews would make the hand that drags stutter
 
 }  // namespace
 
@@ -175,7 +175,7 @@ void MenuActions::preview(const session::MenuChoice* choice) {
   time.start();
   // A value that is refused is told when it is chosen.
   if (!preview_.show(**operation, *fields)) preview_.take_back();
-  is_slow_ = time.elapsed() > kSlow;
+  is_slow_ = time.elapsed() > kSlowPreview;
 }
 
 void MenuActions::hear(const session::MenuChoice& choice) {
