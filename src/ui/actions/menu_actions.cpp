@@ -9,7 +9,7 @@
 
 #include "base/near_names.h"
 #include "interaction/elements/element_file.h"
-#include "interaction/operations/present_value.h"
+#include "interaction/elements/present_value.h"
 #include "ui/actions/actions.h"
 #include "ui/actions/desktop_menu.h"
 #include "ui/actions/recent_files.h"

@@ -1,4 +1,4 @@
-#include "interaction/operations/present_value.h"
+#include "interaction/elements/present_value.h"
 
 #include <string>
 
