@@ -9,7 +9,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "charts/lettering.h"
 #include "charts/palette.h"
+#include "charts/set_line.h"
 
 namespace icome::charts {
 namespace {
@@ -29,12 +31,6 @@ void set_stroke(cairo_t* cairo, const Stroke& stroke) {
   set_colour(cairo, stroke.colour);
   cairo_set_line_width(cairo, stroke.width);
   cairo_set_dash(cairo, stroke.dashes.data(), static_cast<int>(stroke.dashes.size()), 0.0);
-}
-
-void set_font(cairo_t* cairo, const TextStyle& style) {
-  cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
-                         style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(cairo, style.size);
 }
 
 void trace(cairo_t* cairo, std::span<const Vector2> points) {
@@ -58,26 +54,6 @@ void fill_with(cairo_t* cairo, cairo_pattern_t* pattern, std::span<const Colour>
   cairo_pattern_destroy(pattern);
 }
 
-/// Length in bytes of the UTF-8 character at the start of `text`; 0 where there is none.
-std::size_t character_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  const std::size_t length = first < 0x80         ? 1
-                             : first >> 5 == 0x6  ? 2
-                             : first >> 4 == 0xe  ? 3
-                             : first >> 3 == 0x1e ? 4
-                                                  : 0;
-  if (length == 0 || length > text.size()) return 0;
-  std::uint32_t code = length == 1 ? first : first & (0x7fU >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-    code = code << 6 | (byte(i) & 0x3f);
-  }
-  constexpr std::uint32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = code >= 0xd800 && code < 0xe000;
-  return code < kSmallest[length] || code > 0x10ffff || surrogate ? 0 : length;
-}
-
 /// Cairo's pixel, whose colours are premultiplied, as an image has it.
 void append_plain(std::vector<std::uint8_t>& rgba, std::uint32_t word) {
   const std::uint32_t alpha = word >> 24;
@@ -94,17 +70,6 @@ cairo_status_t append_to_text(void* text, const unsigned char* bytes, unsigned i
 }
 
 }  // namespace
-
-std::string printable(std::string_view text) {
-  std::string out;
-  while (!text.empty()) {
-    const std::size_t length = character_length(text);
-    const bool control = length == 1 && (static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7f);
-    out += length == 0 ? std::string_view("\xef\xbf\xbd") : control ? " " : text.substr(0, length);
-    text.remove_prefix(std::max<std::size_t>(1, length));
-  }
-  return out;
-}
 
 struct Canvas::Page {
   cairo_surface_t* surface;
@@ -126,13 +91,6 @@ struct Canvas::Page {
 Canvas::Canvas(std::unique_ptr<Page> page) : page_(std::move(page)) {
   cairo_set_line_join(page_->cairo, CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_cap(page_->cairo, CAIRO_LINE_CAP_ROUND);
-  // Letters keep their shape at any scale, so that a picture of twice the size is the same picture.
-  cairo_font_options_t* options = cairo_font_options_create();
-  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
-  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
-  cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
-  cairo_set_font_options(page_->cairo, options);
-  cairo_font_options_destroy(options);
 }
 
 std::unique_ptr<Canvas::Page> Canvas::pixels(int width, int height, double scale) {
@@ -235,24 +193,17 @@ void Canvas::line(std::span<const Vector2> points, const Stroke& stroke) {
 }
 
 void Canvas::text(const Vector2& at, std::string_view text, const TextStyle& style) {
-  const std::string shown = printable(text);
+  SetLine line(text, style.bold);
   cairo_save(page_->cairo);
-  set_font(page_->cairo, style);
-  cairo_text_extents_t extents;
-  cairo_text_extents(page_->cairo, shown.c_str(), &extents);
   cairo_translate(page_->cairo, at.x(), at.y());
   cairo_rotate(page_->cairo, -style.turn);
-  cairo_move_to(page_->cairo, -style.align * extents.x_advance, 0.0);
   set_colour(page_->cairo, style.colour);
-  cairo_show_text(page_->cairo, shown.c_str());
+  line.show(page_->cairo, -style.align * line.width() * style.size, style.size);
   cairo_restore(page_->cairo);
 }
 
 double Canvas::text_width(std::string_view text, const TextStyle& style) const {
-  set_font(page_->cairo, style);
-  cairo_text_extents_t extents;
-  cairo_text_extents(page_->cairo, printable(text).c_str(), &extents);
-  return extents.x_advance;
+  return SetLine(text, style.bold).width() * style.size;
 }
 
 void Canvas::image(const Image& image, const Area& area) {

@@ -32,7 +32,7 @@ struct CubicLoop {
   std::vector<base::Vector2> points;  ///< page units
 };
 
-/// The look of text, which is set in the DejaVu Sans family.
+/// The look of text, which is set as lettering.h says.
 struct TextStyle {
   double size = 14.0;  ///< page units
   Colour colour;
@@ -109,9 +109,5 @@ class Canvas {
 
 /// The text, cut with an ellipsis where it would be wider than `width` page units.
 std::string fitted(const Canvas& canvas, std::string_view text, const TextStyle& style, double width);
-
-/// The text with each byte that is not part of valid UTF-8 replaced by U+FFFD, and control characters
-/// by spaces.
-std::string printable(std::string_view text);
 
 }  // namespace icome::charts

@@ -223,7 +223,8 @@ std::vector<KeyReader> KeyReader::tables(const std::string& key, const std::stri
   if (node == nullptr) return readers;
   for (const TomlNode& element : node->elements) {
     if (element.kind != TomlNode::Kind::Table) {
-      add_problem(element.place, key, fmt::format("holds {}; write {{ id = ... }}", kind_name(element.kind)));
+      add_problem(element.place, key,
+                  fmt::format("holds {}; write tables: {{ ... }}", kind_name(element.kind)));
       continue;
     }
     const auto named = std::ranges::find(element.members, "id", &TomlMember::key);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fonts/text_ruler.h"
+#include "charts/lettering.h"
 #include "session/session_parts.h"
 
 namespace icome::session {
@@ -19,7 +19,6 @@ using interaction::ElementPlace;
 constexpr double kBehindHand = 0.012;  // m of the hand, from it to a menu that pops up
 constexpr double kPicture = 0.24;      // m of a menu that the picture's shorter side is long
 constexpr double kRoomForMenus = 2.0;  // widths of the menu, for those that open beside it
-constexpr const char* kFont = "DejaVu Sans";
 
 /// The clock of the ticks, s.
 double menu_seconds() { return 1e-9 * double(base::steady_nanoseconds()); }
@@ -60,11 +59,6 @@ std::optional<interaction::LaidBox> seen_of(const ElementFrame& frame, const int
   constexpr double kShare = 0.97;
   const Vector2 seen = -in_eye.z() * interaction::half_picture(view, aspect);
   return interaction::LaidBox{-in_eye.head<2>() / frame.size, kShare * seen / frame.size};
-}
-
-std::size_t language_of(const Element& element, std::string_view language) {
-  const auto found = std::ranges::find(element.languages, language);
-  return found == element.languages.end() ? 0 : std::size_t(found - element.languages.begin());
 }
 
 }  // namespace
@@ -155,13 +149,10 @@ void SessionParts::tell_menu_choices() {
 }
 
 base::Result<void> SessionMenu::open(Element element, std::string_view language, const MenuSpot& spot) {
-  auto ruler = fonts::TextRuler::open(kFont);
-  if (!ruler) return tl::unexpected(ruler.error());
   if (element.place == ElementPlace::Hand && !parts_.is_hand_there(1))
     return base::fail("This menu lies on the second hand, and there is none: connect another device.");
   const interaction::View& view = parts_.user.view();
-  const auto measure = [ruler = std::move(*ruler)](const std::string& text) { return ruler.width(text); };
-  const std::size_t index = language_of(element, language);
+  const std::size_t index = interaction::language_of(element, language);
   ElementFrame frame = facing(view, parts_.menu_size(spot.hand));
   if (spot.hand) {
     frame.centre = parts_.hands.view(*spot.hand).tip - kBehindHand * frame.size * frame.normal();
@@ -173,11 +164,11 @@ base::Result<void> SessionMenu::open(Element element, std::string_view language,
     interaction::ShownParts shown;
     if (const auto seen = seen_of(frame, view, parts_.aspect))
       shown.room = interaction::LaidBox{Vector2::Zero(), seen->half};
-    const auto laid = interaction::lay_out(element, index, measure, {}, shown);
+    const auto laid = interaction::lay_out(element, index, charts::line_width, {}, shown);
     frame.centre = kept_in_sight(frame.centre, view, parts_.aspect, frame.size * laid.sheets.front().half);
   }
   parts_.menu_pops_up = frame;
-  parts_.menu.open(std::move(element), index, measure, frame);
+  parts_.menu.open(std::move(element), index, charts::line_width, frame);
   parts_.menu.place(parts_.menu_frame());
   if (parts_.menu.use()->element().place == ElementPlace::Pointer)
     if (const auto seen = seen_of(frame, view, parts_.aspect)) parts_.menu.keep_within(*seen);

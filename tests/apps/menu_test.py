@@ -5,7 +5,7 @@ import math
 import pathlib
 import unittest
 
-from icome_program import ProgramTest
+from icome_program import ProgramTest, run
 
 MENUS = pathlib.Path(__file__).resolve().parents[2] / "data" / "menus"
 TURNED = """
@@ -123,6 +123,7 @@ class MenuTest(ProgramTest):
         self.assertEqual(tried["chosen"][0], "More")
         tried = self.tried(menu, path_of([*way, way[-1]], button={1, 4}))
         self.assertEqual(tried["chosen"], ["More", "Pink"])
+        self.assertEqual([it["opens"] for it in tried["choices"]], ["menu", None])
 
     def test_a_menu_that_closes_under_a_push_does_not_jump(self):
         for turn in (0, 35):
@@ -155,6 +156,20 @@ class MenuTest(ProgramTest):
                          ["Rood", "Groen", "Blauw", "Geel", "Paars", "Wit", "Zwart"])
         self.assertEqual(dutch["items"][0]["name"], "Red")
         self.fails("menu", colours, "--language", "fr", code=1, saying="it has en, nl")
+
+    def test_arabic_lies_the_other_way_round_and_boxes_are_told(self):
+        toml = ('languages = ["en", "ar"]\ncolumns = 2\nkind = "toolbar"\n' + "".join(
+            f'[[item]]\nname = "{name}"\ntext = {{ en = "{name}", ar = "{text}" }}\n'
+            for name, text in (("Red", "أحمر"), ("Blue", "أزرق"))))
+        file = self.write("menu.toml", toml)
+        x = {language: [it["centre"][0] for it in
+                        json.loads(self.succeeds("menu", file, "--language", language, "--json").stdout)["items"]]
+             for language in ("en", "ar")}
+        self.assertLess(x["en"][0], x["en"][1])
+        self.assertGreater(x["ar"][0], x["ar"][1])
+        done = run("menu", self.write("boxes.toml", '[[item]]\nname = "A\U0010fffdB"\n'), "--json")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("boxes stand for \U0010fffd: no font here", done.stderr)
 
     def test_lists_scroll_and_their_rows_are_chosen(self):
         menu = ('[[item]]\nname = "L"\nkind = "list"\nrows = 5\noperation = "create"\nvalue_as = "name"\n'
@@ -231,8 +246,13 @@ class MenuTest(ProgramTest):
         self.assertNotIn("sphere", tried["chosen"][:-1])
 
     def test_bad_files_are_told_by_line(self):
-        self.fails("menu", self.write("menu.toml", "[[item]]\nname = 3\n"), "--json", code=1,
-                   saying="menu.toml:2:8:")
+        done = self.fails("menu", self.write("menu.toml", "[[item]]\nname = 3\n"), "--json", code=1,
+                          saying="menu.toml:2:8:")
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.fails("menu", self.write("menu.toml", 'languages = []\n[[item]]\nname = "A"\ndefault = true\n'), code=1,
+                   saying="menu.toml:1:13: the element: languages is empty")
+        self.fails("menu", self.write("menu.toml", '[[item]]\nname = "A"\ndefault = true\n'), code=1,
+                   saying="menu.toml:1:1: item 'A': only an item of a dialog")
         self.fails("menu", self.write("menu.toml", '[[item]]\nname = "L"\nkind = "list"\nrows = 4\n'), code=1,
                    saying="menu.toml:1:1: item 'L': it has no rows")
         self.fails("menu", self.folder / "none.toml", code=1, saying="none.toml")

@@ -112,6 +112,17 @@ class StudyTest(ProgramTest):
         self.assertIn("the task's target is 'menu/pink'", report["reasons"][0]["sentence"])
         self.assertTrue(any("'cube-pink'" in warning["sentence"] for warning in report["warnings"]))
 
+    def test_what_nobody_comes_to_is_told(self):
+        file = self.new("menu.toml", "--template", "menu")
+        report = self.check(file)
+        self.assertFalse([it for it in report["warnings"] if "simulated person" in it["sentence"]])
+        # The menu half below the floor.
+        file.write_text(file.read_text().replace("centre = [0.06, 0.003, -0.037]", "centre = [0.06, -0.09, -0.037]"))
+        (warning,) = [it for it in self.check(file)["warnings"] if "simulated person" in it["sentence"]]
+        self.assertTrue(warning["sentence"].startswith("scene 'menu-room': a simulated person did not choose 'menu/"))
+        self.assertIn("within the limit of 60 s", warning["sentence"])
+        self.assertEqual(file.read_text().split("\n")[warning["line"] - 1], "[task]")
+
     def test_scenes_of_templates_stand_beside_them(self):
         self.new("head.toml", "--template", "head-tracking")
         room = self.folder / "scenes" / "room-1.wrl"

@@ -15,18 +15,6 @@ int dark_pixels(const Image& image) {
   return found;
 }
 
-TEST(Printable, ReplacesWhatIsNotUtf8) {
-  EXPECT_EQ(printable("b\u00fcste \u4e2d"), "b\u00fcste \u4e2d");
-  EXPECT_EQ(printable("a\xff"
-                      "b"),
-            "a\ufffd"
-            "b");
-  EXPECT_EQ(printable("\xc3"), "\ufffd");                      // cut short
-  EXPECT_EQ(printable("\xc0\xaf"), "\ufffd\ufffd");            // an overlong slash
-  EXPECT_EQ(printable("\xed\xa0\x80"), "\ufffd\ufffd\ufffd");  // a surrogate
-  EXPECT_EQ(printable("a\tb"), "a b");
-}
-
 TEST(Canvas, StillDrawsAfterABrokenText) {
   Canvas canvas(200, 60, 1.0);
   canvas.text({5, 30}, "\xff\xfe", {});

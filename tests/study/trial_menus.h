@@ -6,9 +6,6 @@
 
 namespace icome::study {
 
-/// Text as wide as it has letters, so that no font is needed.
-inline double by_letters(const std::string& text) { return 0.6 * double(text.size()); }
-
 inline interaction::Widget item_named(const std::string& name) {
   interaction::Widget item;
   item.name = name;
@@ -24,7 +21,7 @@ inline interaction::Element two_items() {
 }
 
 inline StageElement on_stage(interaction::Element element) {
-  return {"menu", std::make_shared<const interaction::Element>(std::move(element)), by_letters};
+  return {"menu", std::make_shared<const interaction::Element>(std::move(element))};
 }
 
 /// The middle of a widget that is to be seen, m, stage frame.

@@ -11,13 +11,13 @@
 #include "apps/interrupt.h"
 #include "apps/menu/menu_picture.h"
 #include "apps/menu/menu_trial.h"
+#include "charts/lettering.h"
 #include "devices/device_profiles.h"
-#include "fonts/text_ruler.h"
-#include "fonts/text_shape.h"
 #include "interaction/elements/element_feel.h"
 #include "interaction/elements/element_file.h"
 #include "io/file_bytes.h"
 #include "io/new_file.h"
+#include "session/elements/element_picture.h"
 
 namespace icome::apps {
 namespace {
@@ -52,8 +52,9 @@ constexpr const char* kMenuNotes =
     "tabs and a page have items: [those in them]; what has a value: value; a number: less and more\n"
     "[x,y,z]; a colour: wheel {centre, inner, outer, corners: [full, white, black]}; rows that scroll:\n"
     "scroll {first, seen, count, less, more, bar}.\n"
-    "With --path instead {chosen: [names], choices: [{name, by, time_s, value}], seconds, near_s,\n"
-    "pushes, max_force_n, max_force_step_n, tick_us: {median, p99, max} (null with look)}.";
+    "With --path instead {chosen: [names, also of items that open a menu or page], choices: [{name, by,\n"
+    "time_s, value, opens: null, \"menu\" or \"page\"}], seconds, near_s, pushes, max_force_n, "
+    "max_force_step_n, tick_us: {median, p99, max} (null with look)}.";
 
 const char* word_of(interaction::ElementKind kind) {
   switch (kind) {
@@ -131,7 +132,6 @@ std::string menu_json_text(const Json& json) {
 struct Prepared {
   Element element;
   std::size_t language = 0;
-  interaction::TextMeasure measure;
 };
 
 Json value_json(const interaction::Value& value) { return Json::parse(interaction::json_from_value(value)); }
@@ -143,7 +143,7 @@ class OpenElement {
       : prepared_(prepared),
         open_(std::move(open)),
         shown_(std::move(shown)),
-        layout_(interaction::lay_out(prepared.element, prepared.language, prepared.measure, open_, shown_)),
+        layout_(interaction::lay_out(prepared.element, prepared.language, charts::line_width, open_, shown_)),
         settings_(prepared.element) {}
 
   /// Those of the widgets that show, and in each those of the menu or page that it opens, as they lie then.
@@ -283,7 +283,8 @@ std::string trial_json(const MenuTrial& trial) {
     choices.push_back({{"name", choice.name},
                        {"by", word_of(choice.by)},
                        {"time_s", choice.time},
-                       {"value", value_json(choice.value)}});
+                       {"value", value_json(choice.value)},
+                       {"opens", choice.opens.empty() ? Json() : Json(choice.opens)}});
   }
   Json ticks = nullptr;
   if (!trial.tick_us.empty())
@@ -306,7 +307,9 @@ std::string trial_text(const MenuTrial& trial) {
                   trial.near_seconds, trial.pushes, trial.pushes == 1 ? "" : "s");
   for (const MenuChoice& choice : trial.chosen) {
     const std::string value = choice.value.is_null() ? "" : ": " + interaction::json_from_value(choice.value);
-    text += fmt::format("  {:.3f} s: {}{} (by {})\n", choice.time, choice.name, value, word_of(choice.by));
+    const std::string opens = choice.opens.empty() ? "" : ", opens its " + choice.opens;
+    text += fmt::format("  {:.3f} s: {}{} (by {}{})\n", choice.time, choice.name, value, word_of(choice.by),
+                        opens);
   }
   if (trial.chosen.empty()) text += "  nothing was chosen\n";
   if (trial.tick_us.empty()) return text;
@@ -320,7 +323,7 @@ std::string trial_text(const MenuTrial& trial) {
 base::Result<Prepared> prepare(const MenuOptions& options) {
   auto element = interaction::read_element_file(options.file);
   if (!element) return tl::unexpected(element.error());
-  Prepared prepared{std::move(*element), 0, {}};
+  Prepared prepared{std::move(*element), 0};
   const auto& languages = prepared.element.languages;
   if (!options.language.empty()) {
     const auto found = std::ranges::find(languages, options.language);
@@ -329,9 +332,9 @@ base::Result<Prepared> prepare(const MenuOptions& options) {
                                     options.language, fmt::join(languages, ", ")));
     prepared.language = std::size_t(found - languages.begin());
   }
-  const auto ruler = fonts::TextRuler::open(fonts::kUsualFont);
-  if (!ruler) return tl::unexpected(ruler.error());
-  prepared.measure = [ruler = *ruler](const std::string& text) { return ruler.width(text); };
+  if (const std::string boxes = session::letters_without_font(prepared.element, prepared.language);
+      !boxes.empty())
+    tell(fmt::format("boxes stand for {}: no font here has these letters.", boxes));
   return prepared;
 }
 
@@ -374,7 +377,7 @@ base::Result<std::string> answer_of(Prepared& prepared, const MenuOptions& optio
   prepared.element.choosing.by_click = !options.path || options.choose == "click";
   prepared.element.choosing.by_push = !options.path || options.choose == "push";
   prepared.element.choosing.by_look = options.path && options.choose == "look";
-  ElementUse use(prepared.element, prepared.language, prepared.measure);
+  ElementUse use(prepared.element, prepared.language, charts::line_width);
   if (!options.show.empty() && !use.show(options.show))
     return base::fail(
         fmt::format("{} has no item \"{}\" that can be shown.", options.file.string(), options.show));

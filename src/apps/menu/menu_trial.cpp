@@ -14,6 +14,15 @@ using interaction::ElementUse;
 
 constexpr std::size_t kRowsBetweenLooks = 4096;  // at Ctrl-C
 
+MenuChoice told(const ElementUse& use, const interaction::Choice& choice, double time) {
+  const interaction::Widget& widget = *choice.widget;
+  const bool is_page = widget.kind == interaction::WidgetKind::Page;
+  return {widget.name, choice.by, time, use.settings().value_of(widget),
+          widget.opens_menu() ? "menu"
+          : is_page           ? "page"
+                              : ""};
+}
+
 }  // namespace
 
 std::optional<MenuTrial> try_element(ElementUse& use, devices::PathPlayer& path) {
@@ -43,8 +52,7 @@ std::optional<MenuTrial> try_element(ElementUse& use, devices::PathPlayer& path)
     trial.tick_us.push_back(double(report.own_ns()) / 1000.0);
     const auto keep = [&](const std::optional<interaction::Choice>& choice) {
       if (!choice) return;
-      const interaction::Widget& widget = *choice->widget;
-      trial.chosen.push_back({widget.name, choice->by, times[row], use.settings().value_of(widget)});
+      trial.chosen.push_back(told(use, *choice, times[row]));
     };
     keep(use.point({times[row], report.tip, (report.buttons & 1U) != 0}));
     if (row + 1 == times.size()) {
@@ -65,7 +73,7 @@ MenuTrial look_at_element(ElementUse& use, const std::vector<devices::HeadSample
   const auto look = [&](const devices::HeadSample& sample, bool button) {
     const base::Pose& head = sample.tracker_from_head;
     if (const auto choice = use.look({head.translation(), -head.linear().col(2)}, button, sample.time))
-      trial.chosen.push_back({choice->widget->name, choice->by, sample.time});
+      trial.chosen.push_back(told(use, *choice, sample.time));
   };
   for (const devices::HeadSample& sample : motion) look(sample, true);
   look(motion.back(), false);

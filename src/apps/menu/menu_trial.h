@@ -16,6 +16,7 @@ struct MenuChoice {
   interaction::ChosenBy by = interaction::ChosenBy::Click;
   double time = 0.0;              // s, of the path
   interaction::Value value = {};  // that it tells; null: none
+  std::string opens = {};         // "menu" or "page"; empty: neither
 };
 
 /// What came of an element that a path was tried on.

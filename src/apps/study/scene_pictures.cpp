@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "charts/image.h"
+#include "charts/lettering.h"
 #include "render/model/views.h"
 #include "render/pictures/picture_of_scene.h"
 #include "session/elements/element_panels.h"
@@ -34,7 +35,7 @@ study::Study with_kept_files(study::Study study, const std::filesystem::path& fo
 std::vector<render::SceneOverlay::Panel> panels_of_element(const study::StageElement& stage) {
   interaction::Element element = *stage.element;
   element.fading.least = 1.0;
-  interaction::ElementUse use(element, 0, stage.measure);
+  interaction::ElementUse use(element, 0, charts::line_width);
   use.rest(0.0, true);
   return session::panels_of(use, session::ElementTheme::Light, kElementResolution);
 }

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "apps/design/design_work.h"
+#include "apps/interrupt.h"
 #include "apps/study/study_help.h"
 #include "apps/study/study_report.h"
 #include "apps/study/study_report_command.h"
@@ -16,6 +17,7 @@
 #include "study/definition/scene_check.h"
 #include "study/definition/study_check.h"
 #include "study/definition/templates.h"
+#include "study/simulation/reach_check.h"
 
 namespace icome::apps {
 namespace {
@@ -70,6 +72,13 @@ int run_study_check(const StudyOptions& options) {
   const study::Study& study = opened->study;
   study::StudyCheck check = study::check_study(study);
   study::check_scenes(study, opened->folder, check);
+  catch_interrupts();
+  study::check_reach(study, opened->folder, check, [&](double share) {
+    status.progress("Trying its trials", 100.0 * share, 100.0, "%");
+    return !interrupted();
+  });
+  status.clear();
+  if (interrupted()) return end_without_result({"interrupted"}, status);
   const int printed =
       print_answer(options.json ? study_json(study, check) : study_text(study, check, options.file.string()));
   return check.reasons.empty() ? printed : kDesignFailed;

@@ -9,6 +9,7 @@
 #include "study/definition/needs.h"
 #include "study/definition/session_length.h"
 #include "study/run/steps.h"
+#include "study/simulation/depth_sight.h"
 #include "study/simulation/simulated_person.h"
 
 namespace icome::apps {
@@ -154,6 +155,15 @@ std::string apparatus_of_simulation(const study::Study& study) {
     if (std::ranges::find(missing, need.what) == missing.end()) missing.push_back(need.what);
   std::string text = "There was no device: ICOME moved a simulated hand";
   if (gives_forces(study)) text += ", with forces computed at 1 kHz that nobody felt";
+  text += fmt::format(". Depth was seen in the picture to {:g} % of its distance",
+                      100.0 * study::DepthSight::kOfPicture);
+  const std::vector<std::string> needs = study::all_needs(study);
+  const auto asks_for = [&](const char* need) { return std::ranges::find(needs, need) != needs.end(); };
+  if (asks_for("stereo")) text += ", better in trials with a picture for each eye";
+  if (asks_for("head-tracking"))
+    text +=
+        fmt::format(", better in trials whose view follows the head, which swayed by {:g} mm to each side",
+                    1000.0 * study::DepthSight::kSway);
   if (!missing.empty())
     text += fmt::format(". The study also asks for {}, which {} not there", joined(missing),
                         missing.size() == 1 ? "was" : "were");

@@ -31,7 +31,7 @@ constexpr std::uint64_t kLargestScene = 1U << 30U;       // bytes
 /// The study without the parts that need more than a pointer.
 base::Result<study::Study> pointer_alone(const study::Study& study) {
   std::vector<std::string> needs;
-  for (const study::UnmetNeed& need : study::needs_not_simulated(study))
+  for (const study::UnmetNeed& need : study::needs_beyond_pointer(study))
     if (std::ranges::find(needs, need.id) == needs.end()) needs.push_back(need.id);
   return study::without_needs(study, needs);
 }

@@ -56,6 +56,7 @@ class ElementReader {
     element.widgets = read_widgets(keys, "item", element.languages, feel, 1);
     check_places(element);
     check_only_one(element.widgets, keys.place());
+    if (element.kind != ElementKind::Dialog) check_no_answers(element.widgets, keys.place());
     check_daisy(element, keys.place());
     if (element.widgets.empty() && problems_.none())
       problems_.add(keys.place(), "the element has no widgets; write [[item]] with name = \"...\"");
@@ -76,6 +77,9 @@ class ElementReader {
           problems_.add(node.place, "the element: languages must be different short names, such as \"en\".");
         if (!again) names.push_back(node.text);
       }
+    if (found != file.members.end() && found->value.kind == TomlNode::Kind::Array && names.empty())
+      problems_.add(found->value.place,
+                    "the element: languages is empty; write short names, such as \"en\".");
     return names.empty() ? std::vector<std::string>{"en"} : names;
   }
 
@@ -312,7 +316,7 @@ class ElementReader {
     }
     if (widget.name.empty()) {
       keys.require("name", "name = \"...\"");
-      if (keys.has("name"))
+      if (const TomlNode* const said = keys.value("name"); said && said->kind == TomlNode::Kind::String)
         problems_.add(keys.place_of("name"), "item: name is empty; write a word or more.");
     } else if (std::ranges::any_of(widget.name, [](unsigned char c) { return c < ' ' || c == 0x7f; })) {
       problems_.add(keys.place_of("name"), "item: name has control characters; write a word or more.");
@@ -354,6 +358,17 @@ class ElementReader {
       if (widget.is_cancel && ++cancels > 1)
         problems_.add(place_of(widget, place), "the element: only one item can be the cancel.");
       check_only_one(widget.widgets, place);
+    }
+  }
+
+  /// Enter and Escape answer the question of a dialog; elsewhere they choose what is lit, and close menus.
+  void check_no_answers(const std::vector<Widget>& widgets, const io::Place& place) {
+    for (const Widget& widget : widgets) {
+      if (widget.is_default || widget.is_cancel)
+        problems_.add(
+            place_of(widget, place),
+            fmt::format("item '{}': only an item of a dialog can be its default or cancel.", widget.name));
+      check_no_answers(widget.widgets, place);
     }
   }
 

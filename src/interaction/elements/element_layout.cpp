@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -511,6 +512,30 @@ class Arranger {
   double unit_;
 };
 
+/// Things that lie beside each other; those round a middle have no side.
+bool has_sides(ElementKind kind) {
+  return kind == ElementKind::Menu || kind == ElementKind::Toolbar || kind == ElementKind::Dialog;
+}
+
+void mirror(LaidBox& box) { box.centre.x() = -box.centre.x(); }
+
+/// Turns it the other way round. A number's signs stay where they are from each other, as digits do.
+void mirror(ElementLayout& layout) {
+  layout.leftward = true;
+  for (LaidSheet& sheet : layout.sheets) sheet.centre.x() = -sheet.centre.x();
+  for (LaidColumn& column : layout.columns) mirror(column.box);
+  for (LaidFrame& frame : layout.frames) mirror(frame.box);
+  for (LaidWidget& widget : layout.widgets) {
+    widget.centre.x() = -widget.centre.x();
+    widget.leftward = true;
+  }
+  for (LaidHandle& handle : layout.handles) {
+    mirror(handle.box);
+    if (handle.of == nullptr || handle.of->kind != WidgetKind::Number) continue;
+    handle.kind = handle.kind == HandleKind::Less ? HandleKind::More : HandleKind::Less;
+  }
+}
+
 }  // namespace
 
 bool Sector::contains(const Vector2& from_middle) const {
@@ -542,8 +567,10 @@ double SliderGroove::place_of(const Widget& slider, double value) const {
 }
 
 SliderGroove groove_of(const LaidWidget& slider, double text_height) {
-  const double right = slider.centre.x() + slider.half.x() - kPadding * text_height;
-  return {right - (kSliderRoom - kPadding) * text_height, right};
+  const double length = (kSliderRoom - kPadding) * text_height;
+  const double end = slider.half.x() - kPadding * text_height;
+  const double left = slider.leftward ? slider.centre.x() - end : slider.centre.x() + end - length;
+  return {left, left + length};
 }
 
 ColourWheel wheel_of(const LaidWidget& picker, double text_height) {
@@ -620,14 +647,30 @@ LaidBox field_of(const ElementLayout& layout, const Widget& number) {
 
 std::string number_text(double value) { return fmt::format("{:.10g}", value == 0.0 ? 0.0 : value); }
 
+std::size_t language_of(const Element& element, std::string_view language) {
+  const auto found = std::ranges::find(element.languages, language);
+  return found == element.languages.end() ? 0 : std::size_t(found - element.languages.begin());
+}
+
+bool writes_leftward(std::string_view language) {
+  constexpr std::array<std::string_view, 16> kLeftward = {
+      "ar", "arc", "ckb", "dv", "fa", "he", "iw", "ks", "nqo", "ps", "sd", "syr", "ug", "ur", "yi", "prs"};
+  return std::ranges::find(kLeftward, language.substr(0, language.find_first_of("-_"))) != kLeftward.end();
+}
+
 ElementLayout lay_out(const Element& element, std::size_t language, const TextMeasure& measure,
                       std::span<const Widget* const> open, const ShownParts& shown) {
   ElementLayout layout;
   layout.language = language;
-  Arranger arranger(element, language, measure, shown, layout);
+  const bool leftward = has_sides(element.kind) && language < element.languages.size() &&
+                        writes_leftward(element.languages[language]);
+  ShownParts seen = shown;
+  if (leftward && seen.room) mirror(*seen.room);
+  Arranger arranger(element, language, measure, seen, layout);
   if (!element.widgets.empty()) arranger.arrange_element();
   for (const Widget* const opener : open)
     if (!arranger.arrange_menu(*opener)) break;
+  if (leftward) mirror(layout);
   return layout;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -42,11 +43,12 @@ struct LaidWidget {
   std::vector<std::string> lines = {};                // its text, broken where it must be
   bool has_mark_room = false, has_icon_room = false;  // before its text
   bool stands_alone = false;                          // has a border, as a button
+  bool leftward = false;                              // begins at its right; see writes_leftward()
 
   bool contains(const Vector2& place) const;
 };
 
-/// The groove of a slider, m to the right of the element's centre.
+/// The groove of a slider, m to the right of the element's centre. Values rise to the right in all languages.
 struct SliderGroove {
   double left = 0.0, right = 0.0;
 
@@ -127,6 +129,7 @@ struct ElementLayout {
   std::vector<LaidColumn> columns;
   std::vector<LaidFrame> frames;
   std::size_t language = 0;
+  bool leftward = false;  // columns, menus and texts go from right to left
 
   /// The widget there, topmost sheet first; null: none. On a sphere it is the nearest in its cone.
   const LaidWidget* at(const Vector2& place) const;
@@ -146,9 +149,16 @@ LaidBox field_of(const ElementLayout& layout, const Widget& number);
 /// A value as people read and type it.
 std::string number_text(double value);
 
+/// The number of the element's language for a person who reads that one: the same or, where it has not got
+/// it, its first.
+std::size_t language_of(const Element& element, std::string_view language);
+/// Is the language of that code ("ar", "he-IL") written from right to left?
+bool writes_leftward(std::string_view language);
+
 /// Lays the element out, in one of its languages, with the menus of `open` beside the items that open them,
 /// each of which is in the menu before; those whose item does not show are left out. Nobody places anything
-/// by hand: sizes follow from the text.
+/// by hand: sizes follow from the text. In a language that is written from right to left, menus, toolbars and
+/// dialogs are the other way round, and open to the left.
 ElementLayout lay_out(const Element& element, std::size_t language, const TextMeasure& measure,
                       std::span<const Widget* const> open = {}, const ShownParts& shown = {});
 

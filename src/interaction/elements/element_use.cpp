@@ -151,7 +151,8 @@ bool ElementUse::pushed(double depth) {
 std::optional<HandleKind> ElementUse::held_part(const LaidWidget& laid, const Vector2& place) const {
   if (laid.widget->kind == WidgetKind::Slider) {
     const SliderGroove groove = groove_of(laid, element_.text_height);
-    const bool is_beside = place.x() < groove.left - element_.text_height;
+    const bool is_beside = laid.leftward ? place.x() > groove.right + element_.text_height
+                                         : place.x() < groove.left - element_.text_height;
     return is_beside ? std::nullopt : std::optional(HandleKind::Groove);
   }
   if (laid.widget->kind != WidgetKind::Colour) return std::nullopt;
@@ -508,9 +509,9 @@ std::size_t ElementUse::rows_in_sight() const {
 }
 
 /// The page beside the one whose header is lit.
-std::optional<Choice> ElementUse::press_page(bool right) {
+std::optional<Choice> ElementUse::press_page(bool onward) {
   const std::vector<Widget>& pages = settings_.of(*lit_).parent->widgets;
-  const std::ptrdiff_t step = right ? 1 : -1, end = right ? std::ptrdiff_t(pages.size()) : -1;
+  const std::ptrdiff_t step = onward ? 1 : -1, end = onward ? std::ptrdiff_t(pages.size()) : -1;
   for (auto i = place_in(pages, *lit_) + step; i != end; i += step) {
     const Widget& page = pages[std::size_t(i)];
     if (!settings_.is_usable(page)) continue;
@@ -532,18 +533,23 @@ std::optional<Choice> ElementUse::press_aside(bool right) {
     change_colour(*lit_, right ? ElementKey::Right : ElementKey::Left);
     return std::nullopt;
   }
-  if (lit_ != nullptr && lit_->kind == WidgetKind::Page) return press_page(right);
-  if (right && lit_ != nullptr && lit_->opens_menu()) {
+  return go_aside(right != layout_.leftward);
+}
+
+/// The light goes on as texts run, or back.
+std::optional<Choice> ElementUse::go_aside(bool onward) {
+  if (lit_ != nullptr && lit_->kind == WidgetKind::Page) return press_page(onward);
+  if (onward && lit_ != nullptr && lit_->opens_menu()) {
     const auto choice = choose(*lit_, ChosenBy::Key);
     move_light(1);
     return choice;
   }
-  if (!right && !open_.empty()) {
+  if (!onward && !open_.empty()) {
     const Widget* const opener = open_.back();
     close_menus(open_.size() - 1);
     light_up(opener);
   } else if (element_.kind != ElementKind::Menu) {
-    move_light(right ? 1 : -1);
+    move_light(onward ? 1 : -1);
   }
   return std::nullopt;
 }
@@ -573,7 +579,7 @@ std::optional<Choice> ElementUse::press(ElementKey key) {
     case ElementKey::Right:
       return press_aside(key == ElementKey::Right);
     case ElementKey::Enter:
-      if (lit_ != nullptr && lit_->opens_menu()) return press_aside(true);
+      if (lit_ != nullptr && lit_->opens_menu()) return go_aside(true);
       if (lit_ != nullptr && lit_->kind == WidgetKind::Colour) {
         edit(*lit_);
         return std::nullopt;

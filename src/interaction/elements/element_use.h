@@ -168,7 +168,8 @@ class ElementUse {
   void move_light(std::ptrdiff_t by, bool goes_round = true);
   std::size_t rows_in_sight() const;
   std::optional<Choice> press_aside(bool right);
-  std::optional<Choice> press_page(bool right);
+  std::optional<Choice> go_aside(bool onward);
+  std::optional<Choice> press_page(bool onward);
   std::optional<Choice> choose_first(bool Widget::*which);
   std::optional<Choice> press_in_edit(ElementKey key, bool& used);
   std::optional<Choice> set_typed();

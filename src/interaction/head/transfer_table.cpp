@@ -7,60 +7,50 @@
 
 #include "base/near_names.h"
 #include "io/file_bytes.h"
-#include "io/toml_tree.h"
+#include "io/key_reader.h"
 
 namespace icome::interaction {
 namespace {
 
 constexpr double kMostSlope = 100.0;
 
-base::Error at(const std::string& source, const io::Place& place, const std::string& what) {
-  return {fmt::format("{}:{}:{}: {}", source, place.line, place.column, what)};
-}
-
 /// Reads one table of the file into an axis.
 class AxisReader {
  public:
-  AxisReader(const std::string& source, const std::string& unit, double in_si, double most_knee)
-      : source_(source), unit_(unit), in_si_(in_si), most_knee_(most_knee) {}
+  AxisReader(std::string unit, double in_si, double most_knee, io::Problems& problems)
+      : unit_(std::move(unit)), in_si_(in_si), most_knee_(most_knee), problems_(problems) {}
 
-  base::Result<TransferAxis> read(const io::TomlMember& table, TransferAxis axis) const {
+  void read(const io::TomlMember& table, TransferAxis& axis) {
     if (table.value.kind != io::TomlNode::Kind::Table)
-      return tl::unexpected(at(source_, table.place, fmt::format("{} must be a table", table.key)));
-    for (const io::TomlMember& member : table.value.members)
-      if (const auto taken = take(member, table.key, axis); !taken) return tl::unexpected(taken.error());
+      return problems_.add(table.place, fmt::format("{} must be a table", table.key));
+    for (const io::TomlMember& member : table.value.members) take(member, table.key, axis);
     if (axis.knee2 < axis.knee1)
-      return tl::unexpected(
-          at(source_, table.place,
-             fmt::format("{}: knee1_{} is {:g}, which must not be above knee2_{}, {:g}", table.key, unit_,
-                         axis.knee1 / in_si_, unit_, axis.knee2 / in_si_)));
-    return axis;
+      problems_.add(table.place,
+                    fmt::format("{}: knee1_{} is {:g}, which must not be above knee2_{}, {:g}", table.key,
+                                unit_, axis.knee1 / in_si_, unit_, axis.knee2 / in_si_));
   }
 
  private:
-  base::Result<void> take(const io::TomlMember& member, const std::string& table, TransferAxis& axis) const {
+  void take(const io::TomlMember& member, const std::string& table, TransferAxis& axis) {
     const std::vector<std::string> names = {fmt::format("knee1_{}", unit_), "slope1",
                                             fmt::format("knee2_{}", unit_), "slope2"};
     double* const numbers[] = {&axis.knee1, &axis.slope1, &axis.knee2, &axis.slope2};
     const auto found = std::find(names.begin(), names.end(), member.key);
     if (found == names.end())
-      return tl::unexpected(
-          at(source_, member.place,
-             fmt::format("{} has no key \"{}\"{}", table, member.key, base::suggestion(member.key, names))));
+      return problems_.add(member.place, fmt::format("{} has no key \"{}\"{}", table, member.key,
+                                                     base::suggestion(member.key, names)));
     const bool is_knee = member.key.starts_with("knee");
     const double most = is_knee ? most_knee_ : kMostSlope;
     const io::TomlNode& value = member.value;
     if (value.kind != io::TomlNode::Kind::Number || !(value.number >= 0.0 && value.number <= most))
-      return tl::unexpected(
-          at(source_, value.place, fmt::format("{} must be a number from 0 to {:g}", member.key, most)));
+      return problems_.add(value.place, fmt::format("{} must be a number from 0 to {:g}", member.key, most));
     *numbers[found - names.begin()] = value.number * (is_knee ? in_si_ : 1.0);
-    return {};
   }
 
-  const std::string& source_;
   std::string unit_;
   double in_si_;
   double most_knee_;
+  io::Problems& problems_;
 };
 
 std::string axis_text(const std::string& name, const std::string& unit, double in_si,
@@ -75,20 +65,20 @@ base::Result<HeadTransfer> read_transfer_table(std::string_view text, const std:
   const auto file = io::parse_toml(text, source);
   if (!file) return tl::unexpected(file.error());
   const std::vector<std::string> names = {"move_x", "move_y", "move_z", "turn_x", "turn_y", "turn_z"};
-  const AxisReader moves(source, "m", 1.0, 10.0), turns(source, "deg", kDegree, 180.0);
+  io::Problems problems;
+  AxisReader moves("m", 1.0, 10.0, problems), turns("deg", kDegree, 180.0, problems);
   HeadTransfer transfer = HeadTransfer::of_thesis();
   for (const io::TomlMember& member : file->members) {
     const auto found = std::find(names.begin(), names.end(), member.key);
-    if (found == names.end())
-      return tl::unexpected(
-          at(source, member.place,
-             fmt::format("a head has no axis \"{}\"{}", member.key, base::suggestion(member.key, names))));
+    if (found == names.end()) {
+      problems.add(member.place, fmt::format("a head has no axis \"{}\"{}", member.key,
+                                             base::suggestion(member.key, names)));
+      continue;
+    }
     const auto number = std::size_t(found - names.begin());
-    TransferAxis& axis = number < 3 ? transfer.moves[number] : transfer.turns[number - 3];
-    const auto read = (number < 3 ? moves : turns).read(member, axis);
-    if (!read) return tl::unexpected(read.error());
-    axis = *read;
+    number < 3 ? moves.read(member, transfer.moves[number]) : turns.read(member, transfer.turns[number - 3]);
   }
+  if (!problems.none()) return base::fail(problems.text(source));
   return transfer;
 }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "charts/canvas.h"
+#include "charts/lettering.h"
 #include "charts/palette.h"
 #include "interaction/operations/looks/colour_names.h"
 
@@ -29,7 +30,6 @@ using interaction::Widget;
 using interaction::WidgetKind;
 
 constexpr double kMillimetres = 1000.0;  // a page unit is a millimetre
-constexpr double kCapital = 0.729;       // height of a capital letter of DejaVu Sans, of its size
 constexpr double kMostPixels = 4096.0;
 constexpr double kTitleRoom = 2.4;  // heights of a capital letter, above and below the ball of a daisy
 
@@ -112,7 +112,14 @@ class SheetPainter {
     return {corner.x(), corner.y(), 2.0 * kMillimetres * box.half.x(), 2.0 * kMillimetres * box.half.y()};
   }
   charts::TextStyle style(const Colour& colour, bool bold = false) const {
-    return {unit_ / kCapital, colour, bold, 0.0, 0.0};
+    return {unit_ / charts::kCapitalHeight, colour, bold, 0.0, 0.0};
+  }
+
+  /// A line that begins so far from where texts of the sheet begin, its baseline at `y`.
+  void paint_line(const Area& area, double from, double y, const std::string& text, charts::TextStyle look) {
+    const bool leftward = use_.layout().leftward;
+    look.align = leftward ? 1.0 : 0.0;
+    canvas_.text({leftward ? area.right() - from : area.x + from, y}, text, look);
   }
 
   void paint_title() {
@@ -126,7 +133,7 @@ class SheetPainter {
     }
     const double height = sheet_.title_height * kMillimetres;
     canvas_.fill({0.0, 0.0, canvas_.width(), height}, colours_.title);
-    canvas_.text({0.9 * unit_, 0.5 * (height + unit_)}, sheet_.title, look);
+    paint_line({0.0, 0.0, canvas_.width(), height}, 0.9 * unit_, 0.5 * (height + unit_), sheet_.title, look);
   }
 
   void paint_widget(const LaidWidget& laid) {
@@ -138,24 +145,32 @@ class SheetPainter {
     const bool is_lit = is_filled(widget);
     const Colour ink = ink_of(widget, is_lit);
     paint_ground(laid, area, is_lit);
-    double left = area.x + 0.9 * unit_;
     const double middle = area.y + 0.5 * area.height;
+    const double onward = laid.leftward ? -1.0 : 1.0, end = laid.leftward ? area.x : area.right();
+    double from = 0.9 * unit_;  // where the text begins
+    const auto place = [&](double offset) {
+      return (laid.leftward ? area.right() : area.x) + onward * offset;
+    };
     if (laid.has_mark_room) {
-      if (has_mark(laid)) paint_mark(widget, {left + 0.6 * unit_, middle}, ink);
-      left += 2.0 * unit_;
+      if (has_mark(laid)) paint_mark(widget, {place(from + 0.6 * unit_), middle}, ink);
+      from += 2.0 * unit_;
     }
     if (laid.has_icon_room) {
-      if (!widget.icon.empty()) paint_icon(widget, {left, middle - 0.8 * unit_, 1.6 * unit_, 1.6 * unit_});
-      left += 2.2 * unit_;
+      const double side = 1.6 * unit_;
+      if (!widget.icon.empty())
+        paint_icon(widget, {place(from + 0.5 * side) - 0.5 * side, middle - 0.5 * side, side, side});
+      from += 2.2 * unit_;
     }
     auto look = style(ink, widget.is_default || is_chosen(widget));
     const bool is_button = laid.stands_alone && widget.icon.empty() && widget.widgets.empty();
+    const double base = middle + 0.5 * unit_;
     if (is_button && widget.kind == WidgetKind::Item) {
       look.align = 0.5;
-      left = area.x + 0.5 * area.width;
+      canvas_.text({area.x + 0.5 * area.width, base}, laid.lines.front(), look);
+    } else {
+      paint_line(area, from, base, laid.lines.front(), look);
     }
-    canvas_.text({left, middle + 0.5 * unit_}, laid.lines.front(), look);
-    if (widget.opens_menu()) paint_arrow({area.right() - 1.2 * unit_, middle}, ink);
+    if (widget.opens_menu()) paint_arrow({end - onward * 1.2 * unit_, middle}, onward, ink);
     if (widget.kind == WidgetKind::Slider) paint_slider(laid, middle, ink);
     if (widget.kind == WidgetKind::Number) paint_field(widget);
   }
@@ -299,11 +314,13 @@ class SheetPainter {
     const Vector2 half = Vector2::Constant(wheel.outer * 1.01);
     const Colour ink = is_usable ? colours_.ink : colours_.quiet;
     const double base = area.y + 1.2 * unit_ + 0.5 * unit_;
-    canvas_.text({area.x + 0.9 * unit_, base}, laid.lines.front(), style(ink));
+    paint_line(area, 0.9 * unit_, base, laid.lines.front(), style(ink));
     auto look = style(ink);
-    look.align = 1.0;
-    canvas_.text({area.right() - 3.1 * unit_, base}, interaction::colour_text(rgb), look);
-    const Area square{area.right() - 2.5 * unit_, area.y + 0.4 * unit_, 1.6 * unit_, 1.6 * unit_};
+    look.align = laid.leftward ? 0.0 : 1.0;
+    const double code = laid.leftward ? area.x + 3.1 * unit_ : area.right() - 3.1 * unit_;
+    canvas_.text({code, base}, interaction::colour_text(rgb), look);
+    const double left = laid.leftward ? area.x + 0.9 * unit_ : area.right() - 2.5 * unit_;
+    const Area square{left, area.y + 0.4 * unit_, 1.6 * unit_, 1.6 * unit_};
     canvas_.fill(square, {double(rgb[0]), double(rgb[1]), double(rgb[2])});
     canvas_.line(outline_of(square), {colours_.line, 0.1 * unit_, {}});
     canvas_.begin_group(area);
@@ -328,7 +345,7 @@ class SheetPainter {
   void paint_words(const LaidWidget& laid, const Area& area) {
     double y = area.y + 1.35 * unit_;
     for (const std::string& line : laid.lines) {
-      canvas_.text({area.x + 0.9 * unit_, y}, line, style(colours_.ink));
+      paint_line(area, 0.9 * unit_, y, line, style(colours_.ink));
       y += 1.7 * unit_;
     }
   }
@@ -397,10 +414,11 @@ class SheetPainter {
         {double((*colour)[0]), double((*colour)[1]), double((*colour)[2]), widget.enabled ? 1.0 : 0.4});
   }
 
-  void paint_arrow(const Vector2& middle, const Colour& ink) {
-    const std::array<Vector2, 3> arrow{middle + unit_ * Vector2(-0.2, -0.5),
-                                       middle + unit_ * Vector2(0.35, 0.0),
-                                       middle + unit_ * Vector2(-0.2, 0.5)};
+  /// An arrow to the right, or where `onward` is -1 to the left.
+  void paint_arrow(const Vector2& middle, double onward, const Colour& ink) {
+    const std::array<Vector2, 3> arrow{middle + unit_ * Vector2(-0.2 * onward, -0.5),
+                                       middle + unit_ * Vector2(0.35 * onward, 0.0),
+                                       middle + unit_ * Vector2(-0.2 * onward, 0.5)};
     canvas_.fill_polygon(arrow, ink);
   }
 
@@ -509,6 +527,19 @@ interaction::Vector2 half_of_ball(const interaction::ElementUse& use) {
   const LaidSheet& sheet = use.layout().sheets.front();
   const double title = sheet.title.empty() ? 0.0 : kTitleRoom * use.element().text_height;
   return {std::max(sheet.sphere->radius, sheet.title_half.x()), sheet.sphere->radius + title};
+}
+
+std::string letters_without_font(const interaction::Element& element, std::size_t language) {
+  std::string texts = language < element.title.size() ? element.title[language] : "";
+  const auto add = [&](const auto& self, const std::vector<Widget>& widgets) -> void {
+    for (const Widget& widget : widgets) {
+      if (language < widget.text.size()) texts += widget.text[language];
+      texts += widget.unit;
+      self(self, widget.widgets);
+    }
+  };
+  add(add, element.widgets);
+  return charts::letters_without_font(texts);
 }
 
 charts::Image draw_look_mark(ElementTheme theme) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <string>
 
 #include "charts/image.h"
 #include "interaction/elements/element_use.h"
@@ -10,6 +11,10 @@ enum class ElementTheme : std::uint8_t { Light, Dark, HighContrast };
 
 // All pictures are sRGB, premultiplied, and clear round their border. `resolution` is in pixels a metre, > 0;
 // it is lowered where a picture would have a side above 4096 pixels.
+
+/// The letters of an element's texts in one of its languages that no font of this desktop has, each once: its
+/// pictures show boxes for them.
+std::string letters_without_font(const interaction::Element& element, std::size_t language);
 
 /// A sheet of an element as it is now, lit, ticked and set.
 charts::Image draw_sheet(const interaction::ElementUse& use, std::size_t sheet, ElementTheme theme,

@@ -10,12 +10,13 @@ namespace {
 
 // A row becomes available when the program can do it in a trial.
 constexpr std::array kCapabilities = {
-    Capability{"pointer", "a device that points in three dimensions, or the simulated hand", true, true},
-    Capability{"force-feedback", "a device that gives forces, or the simulated hand", true, true},
-    Capability{"head-tracking", "a device that tells where the head is", true, false},
-    Capability{"haptic-menu", "menus in the scene that are clicked or pushed", true, true},
-    Capability{"stereo", "a picture for each eye", true, false},
-    Capability{"speech", "commands that are spoken", false, false},
+    Capability{"pointer", "a device that points in three dimensions, or the simulated hand", true, true,
+               true},
+    Capability{"force-feedback", "a device that gives forces, or the simulated hand", true, true, true},
+    Capability{"head-tracking", "a device that tells where the head is", true, true, false},
+    Capability{"haptic-menu", "menus in the scene that are clicked or pushed", true, true, true},
+    Capability{"stereo", "a picture for each eye", true, true, false},
+    Capability{"speech", "commands that are spoken", false, false, false},
 };
 
 constexpr std::array<std::string_view, 5> kQuantities = {"time", "approach-time", "homing-time", "distance",
@@ -65,6 +66,10 @@ std::vector<UnmetNeed> unmet_needs(const Study& study) {
 
 std::vector<UnmetNeed> needs_not_simulated(const Study& study) {
   return needs_unmet_by(study, &Capability::simulated);
+}
+
+std::vector<UnmetNeed> needs_beyond_pointer(const Study& study) {
+  return needs_unmet_by(study, &Capability::of_pointer);
 }
 
 std::vector<std::string> all_needs(const Study& study) {

@@ -15,6 +15,7 @@ struct Capability {
   std::string_view what;  // "a tracker of the head"
   bool available;         // in this program
   bool simulated;         // for simulated people
+  bool of_pointer;        // with a pointing device alone
 };
 
 /// All capabilities that a study may name.
@@ -32,6 +33,8 @@ struct UnmetNeed {
 std::vector<UnmetNeed> unmet_needs(const Study& study);
 /// Those that are not met for simulated people.
 std::vector<UnmetNeed> needs_not_simulated(const Study& study);
+/// Those that take more than a pointing device.
+std::vector<UnmetNeed> needs_beyond_pointer(const Study& study);
 
 /// The ids of all needs of the study, its levels and its scenes; some of them more than once.
 std::vector<std::string> all_needs(const Study& study);

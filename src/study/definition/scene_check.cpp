@@ -5,69 +5,21 @@
 #include <algorithm>
 #include <set>
 
+#include "session/elements/element_picture.h"
 #include "study/definition/scene_reader.h"
 #include "study/definition/study_parts.h"
+#include "study/definition/trial_draws.h"
 #include "study/definition/trial_goal.h"
 
 namespace icome::study {
 namespace {
 
-constexpr std::size_t kMostDraws = 500;      // looked at in a scene
 constexpr std::size_t kMostThingsTold = 10;  // in a sentence
 
-bool is_practised(const Trials& trials) { return trials.practice > 0 || trials.criterion.has_value(); }
-
-/// The indices in Trials::variables of the trial variables that occur in the names of things.
-std::vector<std::size_t> variables_of_names(const Study& study) {
-  std::set<std::string> ids;
-  const auto add = [&](const std::string& name) {
-    for (std::string& id : variables_in(name)) ids.insert(std::move(id));
-  };
-  add(study.task->target);
-  add(study.task->wrong);
-  for (const std::string& name : study.task->shown) add(name);
-  std::vector<std::size_t> places;
-  for (std::size_t i = 0; i < study.trials.variables.size(); ++i)
-    if (ids.contains(study.trials.variables[i].id)) places.push_back(i);
-  return places;
-}
-
-/// The values that may be drawn for a trial, one vector for each draw, as far as they change the names of
-/// things. If there are too many draws, each value occurs at least with some of the others.
-std::vector<std::vector<std::size_t>> possible_draws(const Study& study) {
-  const auto& variables = study.trials.variables;
-  const std::vector<std::size_t> changed = variables_of_names(study);
-  std::size_t count = 1, longest = 1;
-  for (const std::size_t place : changed) {
-    count = std::min(count * variables[place].values.size(), kMostDraws + 1);
-    longest = std::max(longest, variables[place].values.size());
-  }
-  const bool all = count <= kMostDraws;
-  std::vector<std::vector<std::size_t>> draws(all ? count : std::min(longest, kMostDraws),
-                                              std::vector<std::size_t>(variables.size(), 0));
-  for (std::size_t draw = 0; draw < draws.size(); ++draw) {
-    std::size_t rest = draw;
-    for (const std::size_t place : changed) {
-      const std::size_t values = variables[place].values.size();
-      draws[draw][place] = rest % values;
-      if (all) rest /= values;
-    }
-  }
-  return draws;
-}
-
-std::string listed(const std::set<std::string>& names) {
-  std::string all;
-  std::size_t told = 0;
-  for (const std::string& name : names) {
-    if (told++ == kMostThingsTold) return all + fmt::format(" and {} more", names.size() - kMostThingsTold);
-    all += fmt::format("{}'{}'", all.empty() ? "" : ", ", name);
-  }
-  return all;
-}
-
 /// The message with a full stop, which messages that begin with file and line lack.
-std::string ended(const std::string& message) { return message.ends_with('.') ? message : message + "."; }
+std::string ended(const std::string& message) {
+  return message.ends_with('.') || message.ends_with('?') ? message : message + ".";
+}
 
 /// Checks the scenes and the trials that may take place in each.
 class SceneChecker {
@@ -112,7 +64,7 @@ class SceneChecker {
     if (!world) return refuse(scene, scene.place, ended(world.error().message));
     const auto element = reader_.element_in(plan);
     if (!element) return refuse(scene, scene.element->place, ended(element.error().message));
-    if (*element != nullptr) check_languages(scene, **element);
+    if (*element != nullptr) check_texts(scene, **element);
     if (!study_.task) return;
     looked_ = true;
     std::string why;             // of the first draw that has no goal
@@ -143,13 +95,24 @@ class SceneChecker {
     return trial_goal(study_, {}, plan, *world, *element);
   }
 
-  void check_languages(const TrialScene& scene, const StageElement& element) {
+  void check_texts(const TrialScene& scene, const StageElement& element) {
     for (const std::string& language : languages_lacking(element, study_))
       check_.warnings.push_back(
           {scene.element->place,
            fmt::format("scene '{}': {} has no texts in '{}'; people who read that see "
                        "those in '{}'.",
                        scene.id, scene.element->file, language, element.element->languages.front())});
+    std::set<std::string> boxes;
+    for (const std::string& language : study_.languages)
+      boxes.insert(session::letters_without_font(*element.element,
+                                                 interaction::language_of(*element.element, language)));
+    boxes.erase("");
+    for (const std::string& letters : boxes)
+      check_.warnings.push_back(
+          {scene.element->place,
+           fmt::format("scene '{}': {} has letters that no font here has, which people see as "
+                       "boxes: {}",
+                       scene.id, scene.element->file, letters)});
   }
 
   void check_shown(const TrialScene& scene, const world::World& world) {
@@ -193,6 +156,16 @@ class SceneChecker {
 };
 
 }  // namespace
+
+std::string listed(const std::set<std::string>& names) {
+  std::string all;
+  std::size_t told = 0;
+  for (const std::string& name : names) {
+    if (told++ == kMostThingsTold) return all + fmt::format(" and {} more", names.size() - kMostThingsTold);
+    all += fmt::format("{}'{}'", all.empty() ? "" : ", ", name);
+  }
+  return all;
+}
 
 void check_scenes(const Study& study, const std::filesystem::path& folder, StudyCheck& check) {
   SceneChecker(study, folder, check).go();

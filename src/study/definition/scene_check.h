@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <set>
+#include <string>
 
 #include "study/definition/study_check.h"
 
@@ -12,5 +14,8 @@ namespace icome::study {
 /// there. Each scene is read once. Only trial variables that occur in names of things count; if these have
 /// more than some hundreds of combinations, not all are looked at. Scenes without a file are left out.
 void check_scenes(const Study& study, const std::filesystem::path& folder, StudyCheck& check);
+
+/// The names between quotes; of more than ten the first, and how many there are more.
+std::string listed(const std::set<std::string>& names);
 
 }  // namespace icome::study

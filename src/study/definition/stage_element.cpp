@@ -6,15 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "fonts/text_ruler.h"
 #include "interaction/elements/element_file.h"
 
 namespace icome::study {
-namespace {
-
-constexpr const char* kElementFont = "DejaVu Sans";  // that which pictures of sheets are drawn with
-
-}  // namespace
 
 base::Result<StageElement> read_stage_element(const SceneElement& element,
                                               const std::filesystem::path& folder) {
@@ -23,12 +17,9 @@ base::Result<StageElement> read_stage_element(const SceneElement& element,
   if (read->place != interaction::ElementPlace::World)
     return base::fail(fmt::format("{}: an element of a study lies in its scene: write at = \"world\".",
                                   (folder / element.file).string()));
-  auto ruler = fonts::TextRuler::open(kElementFont);
-  if (!ruler) return tl::unexpected(ruler.error());
   read->centre = element.centre.value_or(read->centre);
   read->turn = element.turn.value_or(read->turn);
-  const auto measure = [ruler = std::move(*ruler)](const std::string& text) { return ruler.width(text); };
-  return StageElement{element.id, std::make_shared<const interaction::Element>(std::move(*read)), measure};
+  return StageElement{element.id, std::make_shared<const interaction::Element>(std::move(*read))};
 }
 
 std::vector<std::string> languages_lacking(const StageElement& element, const Study& study) {
@@ -37,11 +28,6 @@ std::vector<std::string> languages_lacking(const StageElement& element, const St
   for (const std::string& language : study.languages)
     if (has.size() > 1 && std::ranges::find(has, language) == has.end()) lacking.push_back(language);
   return lacking;
-}
-
-std::size_t element_language(const interaction::Element& element, const std::string& language) {
-  const auto found = std::ranges::find(element.languages, language);
-  return found == element.languages.end() ? 0 : std::size_t(found - element.languages.begin());
 }
 
 bool is_in_vicinity(const interaction::ElementUse& use, const base::Vector3& place, double distance) {

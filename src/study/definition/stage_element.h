@@ -13,20 +13,15 @@ namespace icome::study {
 struct StageElement {
   std::string id;                                       // as SceneElement::id
   std::shared_ptr<const interaction::Element> element;  // never null
-  interaction::TextMeasure measure;
 };
 
 /// Reads the element of a scene; `folder` is that of the study file. Fails as
-/// interaction::read_element_file() does, for an element that does not lie in the world, and without the font
-/// of its text.
+/// interaction::read_element_file() does, and for an element that does not lie in the world.
 base::Result<StageElement> read_stage_element(const SceneElement& element,
                                               const std::filesystem::path& folder);
 
 /// The languages of the study that the element has no texts in; none where it has only one.
 std::vector<std::string> languages_lacking(const StageElement& element, const Study& study);
-
-/// The element's language for a person who reads that one: the same or, where it has not got it, its first.
-std::size_t element_language(const interaction::Element& element, const std::string& language);
 
 /// Is a place in the vicinity of an element in use: is its distance to the plane at most `distance`
 /// (m; equation 5.2), and does its projection (5.6, corrected) lie in a rectangle that is larger by the

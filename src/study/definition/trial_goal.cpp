@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "charts/lettering.h"
 #include "study/definition/conditions.h"
 #include "study/definition/study_parts.h"
 
@@ -106,7 +107,7 @@ void add_widgets(const TrialElement& element, const std::vector<interaction::Wid
 
 /// Gives widgets their place in the scene while all menus are closed.
 void place_widgets(const TrialElement& element, TrialGoal& goal) {
-  const auto layout = interaction::lay_out(*element.element, element.language, element.measure);
+  const auto layout = interaction::lay_out(*element.element, element.language, charts::line_width);
   const interaction::ElementFrame frame{element.element->centre, element.element->turn};
   for (const interaction::LaidWidget& laid : layout.widgets) {
     const int number = goal.thing_of(*laid.widget);
@@ -134,8 +135,7 @@ void add_element(const StageElement& stage, const Task& task, const std::string&
   element.id = stage.id;
   element.element =
       std::make_shared<const interaction::Element>(in_trial(*stage.element, task, goal.choosing));
-  element.language = element_language(*element.element, language);
-  element.measure = stage.measure;
+  element.language = interaction::language_of(*element.element, language);
   add_widgets(element, element.element->widgets, names, goal.things);
   place_widgets(element, goal);
   if (goal.is_in_element()) {

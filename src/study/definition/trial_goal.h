@@ -26,7 +26,6 @@ struct TrialElement {
   std::string id;
   std::shared_ptr<const interaction::Element> element;  // chosen from as the trial has it; never null
   std::size_t language = 0;
-  interaction::TextMeasure measure;
 };
 
 /// The goal of a trial in its scene.

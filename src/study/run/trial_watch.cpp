@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "charts/lettering.h"
+
 namespace icome::study {
 namespace {
 
@@ -19,8 +21,7 @@ double in_millionths(double value) { return std::round(value * 1e6) / 1e6; }
 
 TrialWatch::TrialWatch(TrialGoal goal)
     : goal_(std::move(goal)), touched_at_(goal_.things.size(), kNeverTouched) {
-  if (goal_.element)
-    element_.emplace(*goal_.element->element, goal_.element->language, goal_.element->measure);
+  if (goal_.element) element_.emplace(*goal_.element->element, goal_.element->language, charts::line_width);
 }
 
 double TrialWatch::hold_left() const {

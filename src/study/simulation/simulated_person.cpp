@@ -10,7 +10,9 @@
 #include "devices/simulated/simulated_device.h"
 #include "haptics/servo/servo.h"
 #include "session/elements/felt_sheets.h"
+#include "study/definition/needs.h"
 #include "study/run/trial_watch.h"
+#include "study/simulation/depth_sight.h"
 #include "study/simulation/route.h"
 
 namespace icome::study {
@@ -27,7 +29,7 @@ constexpr double kRestDepth = 0.001;     // m, behind the surface, where a click
 constexpr double kTouchTime = 0.25;      // s, of the last bit of a touch
 constexpr double kPushTime = 0.6;        // s, of a push
 constexpr double kPushSurplus = 6.0;     // times the depth: surfaces push back
-constexpr double kEyeDistance = 0.5;     // m, from the eyes to the scene
+constexpr int kMostSeekTicks = 10'000;   // in which the start is to be found
 constexpr int kTicksAFrame = 16;         // after which the element's sheets are followed, as by a display
 constexpr int kYoungest = 18, kOldest = 65;
 
@@ -69,9 +71,10 @@ std::string any_answer(const Item& item, base::Random& random) {
 /// A trial under way. Time passes in ticks of the servo; the code gives the hand's intentions in sequence.
 class SimulatedTrialRun {
  public:
-  SimulatedTrialRun(const interaction::PersonModel& model, const TrialGoal& goal, const FeltScene& where,
-                    std::uint64_t seed)
+  SimulatedTrialRun(const interaction::PersonModel& model, const TrialGoal& goal, bool tracked,
+                    const FeltScene& where, std::uint64_t seed)
       : model_(model),
+        sight_(model, goal.stereo.value_or(false), goal.head && tracked),
         random_(seed),
         where_(where),
         watch_(goal),
@@ -93,11 +96,8 @@ class SimulatedTrialRun {
   SimulatedTrialRun& operator=(const SimulatedTrialRun&) = delete;
 
   SimulatedPerson::Run go() {
-    while (watch_.state() != TrialWatch::State::Holding) tick();
-    rest(kSimulatedHold);
-    watch_.release();
-    rest(model_.reaction);
-    while (!over()) {
+    take_hold();
+    while (!over() && watch_.state() != TrialWatch::State::Seeking) {
       find_goal();
       for (const Vector3& corner : route(at_, hover_, obstacles_, kClearance)) move(corner, corner == hover_);
       const bool is_wrong = sees_another();
@@ -106,6 +106,7 @@ class SimulatedTrialRun {
     }
     SimulatedPerson::Run run;
     run.measures = watch_.measures();
+    run.measures.completed = run.measures.completed && over();
     run.trace.rate_hz = kRate;
     run.trace.device = hand_.info().name;
     for (const Thing& thing : watch_.goal().things) run.trace.things.push_back(thing.name);
@@ -125,6 +126,17 @@ class SimulatedTrialRun {
     settings.rate_hz = kRate;
     settings.world_from_device.translation() = start;
     return settings;
+  }
+
+  /// Comes to the start, where the trial begins. A start in something solid, which the hand is kept out of,
+  /// is given up.
+  void take_hold() {
+    for (int i = 0; i < kMostSeekTicks && watch_.state() != TrialWatch::State::Holding; ++i) tick();
+    if (watch_.state() != TrialWatch::State::Holding) return;
+    sight_.recentre();  // as the program does it for people
+    rest(kSimulatedHold);
+    watch_.release();
+    rest(model_.reaction);
   }
 
   /// Finds the face that the hand is to come to.
@@ -225,6 +237,7 @@ class SimulatedTrialRun {
     sample.buttons = report.buttons;
     if (report.contact.touching) sample.touched = number_of(report.object);
     watch_.step(sample);
+    sight_.look(sample.time);
     feel_element();
   }
 
@@ -255,8 +268,7 @@ class SimulatedTrialRun {
   /// Makes one movement; its end is off by noise, and a goal's depth is not seen sharply.
   void move(const Vector3& corner, bool last) {
     Vector3 seen = corner;
-    const double blur = model_.stereo_acuity * kEyeDistance * kEyeDistance / model_.eye_distance;
-    if (last) seen.z() += blur * interaction::normal_number(random_);
+    if (last) seen.z() += sight_.deviation() * interaction::normal_number(random_);
     const Vector3 way = seen - at_;
     const double amplitude = way.norm();
     if (amplitude == 0.0) return;
@@ -296,6 +308,7 @@ class SimulatedTrialRun {
   }
 
   const interaction::PersonModel& model_;
+  DepthSight sight_;
   base::Random random_;
   const FeltScene& where_;
   TrialWatch watch_;
@@ -315,6 +328,8 @@ class SimulatedTrialRun {
 
 SimulatedPerson::SimulatedPerson(const Study& study, std::uint64_t number)
     : seed_(mixed(study.seed, {number, 1})) {
+  const std::vector<std::string> needs = all_needs(study);
+  tracked_ = std::ranges::find(needs, "head-tracking") != needs.end();
   base::Random random(seed_);
   model_ = interaction::drawn_person({}, random);
 }
@@ -340,7 +355,7 @@ std::vector<std::string> SimulatedPerson::answers(const Questionnaire& questionn
 SimulatedPerson::Run SimulatedPerson::trial(const TrialPlan& plan, const TrialGoal& goal,
                                             const FeltScene& where) const {
   const std::uint64_t seed = mixed(seed_, {plan.position, plan.number, plan.practice ? 1U : 0U});
-  return SimulatedTrialRun(model_, goal, where, seed).go();
+  return SimulatedTrialRun(model_, goal, tracked_, where, seed).go();
 }
 
 }  // namespace icome::study

@@ -22,7 +22,8 @@ struct FeltScene {
 /// A simulated participant, to try a study out with; its data say nothing about people. Moves as the people
 /// of the technique bench do, by movements of minimum jerk with noise that end off the goal and are
 /// corrected, with a hand that trembles and that forces push back; answers by chance. It sees where things
-/// are, whatever hides them, and never learns.
+/// are, whatever hides them, though depth not sharply (DepthSight), and never learns. Where the study needs
+/// head tracking, its head is tracked.
 class SimulatedPerson {
  public:
   SimulatedPerson(const Study& study, std::uint64_t number);
@@ -46,6 +47,7 @@ class SimulatedPerson {
  private:
   std::uint64_t seed_;
   interaction::PersonModel model_;
+  bool tracked_ = false;  // by a head tracker, in trials whose view follows the head
 };
 
 }  // namespace icome::study

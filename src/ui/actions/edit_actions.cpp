@@ -7,6 +7,7 @@
 #include <QPlainTextEdit>
 #include <utility>
 
+#include "interaction/object_edits.h"
 #include "ui/actions/actions.h"
 #include "ui/actions/object_menu.h"
 #include "ui/look/icons.h"
@@ -21,6 +22,13 @@ void collect_shapes(const world::World& world, ObjectId root, std::vector<Object
   for (const ObjectId id : world::subtree(world, root)) {
     if (world.find(id)->geometry) found.push_back(id);
   }
+}
+
+/// The topmost objects of the scene that is shown.
+std::vector<ObjectId> shown_roots(const session::Session& session) {
+  const world::World& world = session.world();
+  const world::Scene* const scene = world.find(session.stage().shown_scene());
+  return scene ? scene->roots : world.roots();
 }
 
 /// Is there typing in the widget that can be undone or redone?
@@ -55,9 +63,7 @@ class UndoKeys final : public QObject {
 
 void select_all(session::Session& session) {
   std::vector<ObjectId> all;
-  const world::World& world = session.world();
-  const world::Scene* scene = world.find(session.stage().shown_scene());
-  for (const ObjectId root : scene ? scene->roots : world.roots()) collect_shapes(world, root, all);
+  for (const ObjectId root : shown_roots(session)) collect_shapes(session.world(), root, all);
   session.select(std::move(all));
 }
 
@@ -88,6 +94,13 @@ void EditActions::fill(QMenu& menu) {
   delete_ = add_action(menu, "edit.delete", "De&lete", QKeySequence::Delete,
                        [this] { perform([this] { return delete_selected(session_); }); });
   delete_->setIcon(icon(Icon::Delete));
+  clear_ = add_action(menu, "edit.clear", "&Clear the Scene", {}, [this] {
+    perform([this] {
+      return session_.history().perform(interaction::delete_objects(session_.world(), shown_roots(session_)),
+                                        "Clear the Scene");
+    });
+  });
+  clear_->setStatusTip("Deletes all objects of the scene that is shown; undo brings them back");
   group_ = add_action(menu, "edit.group", "&Group", QKeySequence("Ctrl+G"),
                       [this] { perform([this] { return group_selected(session_); }); });
   group_->setIcon(icon(Icon::Group));
@@ -132,6 +145,7 @@ void EditActions::refresh() {
   for (QAction* action : {duplicate_, delete_, group_, duplicate_as_->menuAction()})
     action->setEnabled(selected > 0);
   rename_->setEnabled(selected == 1);
+  clear_->setEnabled(!shown_roots(session_).empty());
 }
 
 }  // namespace icome::ui

@@ -39,7 +39,7 @@ class EditActions {
 
   session::Session& session_;
   Hooks hooks_;
-  QAction *undo_ = nullptr, *redo_ = nullptr, *duplicate_ = nullptr, *delete_ = nullptr;
+  QAction *undo_ = nullptr, *redo_ = nullptr, *duplicate_ = nullptr, *delete_ = nullptr, *clear_ = nullptr;
   QAction *group_ = nullptr, *rename_ = nullptr;
   QMenu* duplicate_as_ = nullptr;
 };

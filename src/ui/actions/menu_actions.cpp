@@ -10,6 +10,7 @@
 #include "base/near_names.h"
 #include "interaction/elements/element_file.h"
 #include "interaction/elements/present_value.h"
+#include "session/elements/element_picture.h"
 #include "ui/actions/actions.h"
 #include "ui/actions/desktop_menu.h"
 #include "ui/actions/recent_files.h"
@@ -132,6 +133,16 @@ void MenuActions::tell_unknown_commands(const Element& element) const {
                .details = std::move(unknown)});
 }
 
+/// Says which letters are not seen.
+void MenuActions::tell_boxes(const Element& element, const std::string& language) const {
+  const std::string boxes =
+      session::letters_without_font(element, interaction::language_of(element, language));
+  if (boxes.empty()) return;
+  hooks_.tell({.weight = Note::Weight::Warning,
+               .text = fmt::format("Boxes in the menu stand for {}: no font here has these letters.", boxes),
+               .topic = kMenuTopic});
+}
+
 void MenuActions::toggle(const session::MenuSpot& spot) {
   if (session_.menu().use() != nullptr) return session_.menu().close();
   auto made = element();
@@ -140,6 +151,7 @@ void MenuActions::toggle(const session::MenuSpot& spot) {
     take_ticks_over(made->widgets);
     tell_unknown_commands(*made);
     const std::string language = QLocale::system().name().section('_', 0, 0).toStdString();
+    tell_boxes(*made, language);
     if (const auto opened = session_.menu().open(std::move(*made), language, spot); !opened)
       made = tl::unexpected(opened.error());
   }
@@ -179,7 +191,9 @@ void MenuActions::preview(const session::MenuChoice* choice) {
 }
 
 void MenuActions::hear(const session::MenuChoice& choice) {
-  if (pops_up_ && choice.widget.widgets.empty() && choice.widget.kind == WidgetKind::Item)
+  const interaction::ElementUse* const use = session_.menu().use();
+  const bool is_answered = use != nullptr && use->element().kind == interaction::ElementKind::Dialog;
+  if ((pops_up_ || is_answered) && choice.widget.widgets.empty() && choice.widget.kind == WidgetKind::Item)
     session_.menu().close();
   perform(choice);
   refresh();

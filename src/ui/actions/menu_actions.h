@@ -45,6 +45,7 @@ class MenuActions {
  private:
   std::optional<bool> is_possible(const interaction::Widget& widget) const;
   void tell_unknown_commands(const interaction::Element& element) const;
+  void tell_boxes(const interaction::Element& element, const std::string& language) const;
   void take_ticks_over(std::vector<interaction::Widget>& widgets) const;
   void choose_file();
   void hear(const session::MenuChoice& choice);

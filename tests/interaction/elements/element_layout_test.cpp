@@ -212,6 +212,55 @@ TEST(ElementLayout, MenusStayInTheRoomThatTheyHaveAndScrollWhereTheyAreTooHigh) 
   EXPECT_GT(to_the_left, std::size_t(repeats(200)) / 4);
 }
 
+TEST(ElementLayout, LanguagesThatRunFromTheRightAreTheOtherWayRound) {
+  EXPECT_TRUE(writes_leftward("ar") && writes_leftward("he-IL") && writes_leftward("fa_IR"));
+  EXPECT_FALSE(writes_leftward("en") || writes_leftward("arn") || writes_leftward(""));
+  base::Random random(4);
+  std::size_t numbers = 0;
+  for (int i = 0; i < repeats(200); ++i) {
+    const auto kind = ElementKind(random.index(5));
+    Element element = random_element(random, kind, 1 + random.index(8));
+    ShownParts shown;
+    show_at_random(random, element.widgets, shown);
+    std::vector<const Widget*> open;
+    for (const Widget& widget : element.widgets)
+      if (widget.opens_menu() && open.empty()) open.push_back(&widget);
+    const ElementLayout usual = lay_out(element, 0, even_letters(), open, shown);
+    element.languages = {"ar"};
+    const ElementLayout other = lay_out(element, 0, even_letters(), open, shown);
+    const bool is_round = kind == ElementKind::Ring || kind == ElementKind::Pie;
+    ASSERT_EQ(other.leftward, !is_round);
+    expect_apart(other);
+    expect_handles_apart(other);
+    const auto mirrored = [&](const Vector2& place) {
+      return Vector2(is_round ? place.x() : -place.x(), place.y());
+    };
+    ASSERT_EQ(other.widgets.size(), usual.widgets.size());
+    for (const LaidWidget& laid : usual.widgets) {
+      const LaidWidget& its = *other.widget(*laid.widget);
+      EXPECT_EQ(its.centre, mirrored(laid.centre));
+      EXPECT_EQ(its.half, laid.half);
+      if (laid.widget->kind == WidgetKind::Number) {
+        const LaidBox field = field_of(other, *laid.widget);
+        EXPECT_GT(field.half.x(), 0.0) << "the minus is left of the plus, as digits run";
+        EXPECT_TRUE(is_in(field, box_of(its)));
+        ++numbers;
+      }
+      if (laid.widget->kind != WidgetKind::Slider) continue;
+      const SliderGroove here = groove_of(its, element.text_height),
+                         there = groove_of(laid, element.text_height);
+      EXPECT_NEAR(here.right - here.left, there.right - there.left, 1e-12);
+      EXPECT_NEAR(here.left - its.centre.x(),
+                  is_round ? there.left - laid.centre.x() : laid.centre.x() - there.right, 1e-12);
+    }
+    if (!open.empty() && !is_round) {
+      EXPECT_LT(other.sheets[1].centre.x(), other.sheets[0].centre.x());
+    }
+    if (testing::Test::HasFailure()) FAIL() << i;
+  }
+  EXPECT_GT(numbers, 20U);
+}
+
 TEST(ElementLayout, AFieldHoldsEveryValueOfItsNumber) {
   const Element element =
       element_of("[[item]]\nname = \"N\"\nkind = \"number\"\nleast = -1000\nmost = 20000\nunit = \"mm\"\n");

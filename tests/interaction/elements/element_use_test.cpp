@@ -173,6 +173,21 @@ TEST(ElementUse, KeysReachEverythingThatThePointerDoes) {
   EXPECT_EQ(it.use.value_of(*it.use.lit()), 12.0);
 }
 
+TEST(ElementUse, KeysGoAsTextsRun) {
+  Fixture it(
+      "languages = [\"he\"]\n[[item]]\nname = \"More\"\n[[item.item]]\nname = \"Deep\"\n[[item]]\nname = "
+      "\"Size\"\nkind = \"slider\"\nmost = 100\nstep = 10\n");
+  it.use.press(ElementKey::Down);
+  EXPECT_FALSE(it.use.press(ElementKey::Right));
+  EXPECT_EQ(it.use.press(ElementKey::Left)->widget->name, "More");
+  EXPECT_EQ(it.use.lit()->name, "Deep");
+  it.use.press(ElementKey::Right);
+  EXPECT_EQ(it.use.lit()->name, "More");
+  it.use.press(ElementKey::Down);
+  it.use.press(ElementKey::Right);
+  EXPECT_EQ(it.use.value_of(*it.use.lit()), 10.0) << "values rise to the right in all languages";
+}
+
 TEST(ElementUse, NamesAndWordsOfAnyLanguageChoose) {
   Fixture it;
   EXPECT_EQ(it.use.choose("Een")->widget->name, "One");

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "charts/lettering.h"
 #include "study/trial_menus.h"
 #include "study/trial_scenes.h"
 
@@ -27,10 +28,9 @@ TEST(StageElement, IsWhereTheStudyPutsIt) {
   EXPECT_EQ(read->element->centre, Vector3(0.1, 0.2, 0.3));
   EXPECT_EQ(read->element->turn, 0.5);
   EXPECT_EQ(read->element->widgets.size(), 7U);
-  EXPECT_GT(read->measure("Purple"), read->measure("Red"));
   EXPECT_TRUE(languages_lacking(*read, folder.study()).empty());
-  EXPECT_EQ(element_language(*read->element, "nl"), 1U);
-  EXPECT_EQ(element_language(*read->element, "fr"), 0U);
+  EXPECT_EQ(interaction::language_of(*read->element, "nl"), 1U);
+  EXPECT_EQ(interaction::language_of(*read->element, "fr"), 0U);
 }
 
 TEST(StageElement, OneThatDoesNotLieInTheWorldIsRefused) {
@@ -65,7 +65,7 @@ TEST(StageElement, VicinityIsTheThesissByBruteForce) {
     interaction::Element element = two_items();
     for (int axis = 0; axis < 3; ++axis) element.centre[axis] = random.uniform(-0.1, 0.1);
     element.turn = i % 5 == 0 ? double(i % 3 - 1) * std::numbers::pi / 2.0 : random.uniform(-3.1, 3.1);
-    const interaction::ElementUse use(element, 0, by_letters);
+    const interaction::ElementUse use(element, 0, charts::line_width);
     const base::Vector2 half = use.layout().sheets.front().half;
     Vector3 place = element.centre;
     for (int axis = 0; axis < 3; ++axis) place[axis] += random.uniform(-0.06, 0.06);

@@ -61,12 +61,17 @@ TEST(Needs, AreLeftOutWithTheLevelsThatHaveThem) {
   EXPECT_TRUE(check_study(*menus).reasons.empty());
 }
 
-TEST(Needs, SimulatedPeopleHaveNoHeadTracking) {
+TEST(Needs, SimulatedPeopleHaveAHeadAndTwoEyesButNoVoice) {
   const Study study = study_of_template("head-tracking");
   EXPECT_EQ(all_needs(study), (std::vector<std::string>{"pointer", "force-feedback", "head-tracking"}));
   EXPECT_TRUE(unmet_needs(study).empty());
-  ASSERT_EQ(needs_not_simulated(study).size(), 1U);
-  EXPECT_EQ(needs_not_simulated(study)[0].of, "level 'tracked' of 'viewpoint'");
+  EXPECT_TRUE(needs_not_simulated(study).empty());
+  ASSERT_EQ(needs_beyond_pointer(study).size(), 1U);
+  EXPECT_EQ(needs_beyond_pointer(study)[0].of, "level 'tracked' of 'viewpoint'");
+  Study spoken = study;
+  spoken.needs = {"speech", "stereo"};
+  ASSERT_EQ(needs_not_simulated(spoken).size(), 1U);
+  EXPECT_EQ(needs_not_simulated(spoken)[0].id, "speech");
 }
 
 TEST(Needs, SomethingMustBeLeft) {

@@ -426,6 +426,25 @@ TEST_F(MenuActionsTest, APanelForTheOtherHandIsRefusedWithoutOneAndUnknownComman
   session().menu().close();
 }
 
+TEST_F(MenuActionsTest, ADialogIsAnsweredOnceAndMayClearTheScene) {
+  const std::size_t count = session().world().objects().size();
+  ASSERT_GT(count, 0U);
+  settings_.setValue("menu/file",
+                     QString::fromStdString((places::project_folder() / "data/menus/clear.toml").string()));
+  key(Qt::Key_Space);
+  ASSERT_TRUE(is_open());
+  key(Qt::Key_Return);  // Keep
+  EXPECT_FALSE(is_open());
+  EXPECT_EQ(session().world().objects().size(), count);
+  key(Qt::Key_Space);
+  ASSERT_TRUE(session().menu().choose("Clear"));
+  session().update();
+  EXPECT_TRUE(until([&] { return session().world().objects().empty(); }));
+  EXPECT_FALSE(is_open());
+  ASSERT_TRUE(session().history().undo());
+  EXPECT_EQ(session().world().objects().size(), count);
+}
+
 TEST_F(MenuActionsTest, AMenuThatPopsUpStaysInThePictureWithAllThatIsOpen) {
   QFile deep(file("deep.toml"));
   ASSERT_TRUE(deep.open(QIODevice::WriteOnly));
