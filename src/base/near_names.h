@@ -3,24 +3,25 @@
 #include <numeric>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace icome::base {
 
-/// Number of letters to insert, delete or change (Levenshtein 1966).
+/// Number of letters to insert, delete or change, or of neighbours to swap (Damerau 1964).
 inline std::size_t edit_distance(std::string_view one, std::string_view other) {
-  std::vector<std::size_t> row(other.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
+  std::vector<std::size_t> before, last(other.size() + 1), row(other.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
   for (std::size_t i = 0; i < one.size(); ++i) {
-    std::size_t diagonal = row[0];
     row[0] = i + 1;
     for (std::size_t k = 0; k < other.size(); ++k) {
-      const std::size_t changed = diagonal + (one[i] == other[k] ? 0 : 1);
-      diagonal = row[k + 1];
-      row[k + 1] = std::min({changed, row[k] + 1, row[k + 1] + 1});
+      row[k + 1] = std::min({last[k] + (one[i] == other[k] ? 0 : 1), row[k] + 1, last[k + 1] + 1});
+      const bool swapped = i > 0 && k > 0 && one[i] == other[k - 1] && one[i - 1] == other[k];
+      if (swapped) row[k + 1] = std::min(row[k + 1], before[k - 1] + 1);
     }
+    before = std::exchange(last, row);
   }
-  return row.back();
+  return last.back();
 }
 
 /// "; did you mean 'extrude'?" for the name that differs from `said` by the fewest letters, or ";

@@ -138,6 +138,34 @@ class MenuTest(ProgramTest):
                 self.assertEqual(tried["chosen"], ["More", "Pink"])
                 self.assertLess(tried["max_force_step_n"], 0.5)
 
+    def test_menus_beside_each_other_change_forces_as_one(self):
+        deep = ('title = "T"\ncentre = [0, 0, 0]\n[[item]]\nname = "A"\n[[item.item]]\nname = "A1"\n'
+                '[[item.item.item]]\nname = "A1a"\n[[item.item.item]]\nname = "A1b"\n[[item.item]]\nname = "A2"\n'
+                '[[item]]\nname = "B"\n[[item.item]]\nname = "B1"\n[[item.item]]\nname = "B2"\n'
+                '[[item]]\nname = "C"\nenabled = false\n[[item]]\nname = "D"\n')
+        corners = ((0, 0, 0, 0.03), (0.1, 0, 0, -0.006), (0.2, 0, 0, 0.01), (0.264, 0.01, -0.011, -0.002),
+                   (0.294, 0.027, 0.006, 0.01))
+        rows = ["t,x,y,z"]
+        for a, b in zip(corners, corners[1:]):
+            ticks = round((b[0] - a[0]) * 1000)
+            rows += [",".join(repr(p + (q - p) * i / ticks) for p, q in zip(a, b)) for i in range(ticks)]
+        tried = self.tried(deep, "\n".join(rows) + "\n", "--choose", "push")
+        self.assertEqual(tried["chosen"][:1], ["B"])
+        self.assertLess(tried["max_force_step_n"], 0.45)
+
+    def test_a_list_is_printed_as_it_shows(self):
+        rows = '[[item]]\nname = "Rows"\nkind = "list"\nrows = 3\nvalue = "r4"\n' + "".join(
+            f'[[item.item]]\nname = "r{i}"\n' for i in range(1, 6))
+        (laid,) = self.layout(rows)["items"]
+        self.assertEqual([it["name"] for it in laid["items"]], ["r2", "r3", "r4"])
+        self.assertEqual(laid["scroll"]["first"], 1)
+        for row in laid["items"]:
+            at = row["centre"]
+            self.assertEqual(self.tried(rows, path_of([plus(at, (0, 0, 0.02)), plus(at, (0, 0, 0.004))]))["chosen"],
+                             [row["name"]])
+        shown = json.loads(self.succeeds("menu", self.write("menu.toml", rows), "--show", "r5", "--json").stdout)
+        self.assertEqual([it["name"] for it in shown["items"][0]["items"]], ["r3", "r4", "r5"])
+
     def test_a_path_of_one_row_clicks_there(self):
         item = self.layout(TURNED % 0)["items"][0]
         self.assertEqual(self.tried(TURNED % 0, path_of([plus(item["centre"], item["normal"], 0.005)] * 2))["chosen"],

@@ -20,6 +20,9 @@ TEST(NearNames, WhereNoneIsNearAFewAreListed) {
 TEST(NearNames, DistanceCountsLetters) {
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);  // k to s, e to i, and a g
   EXPECT_EQ(edit_distance("", "abc"), 3U);
+  EXPECT_EQ(edit_distance("titel", "title"), 1U);  // neighbours that are swapped
+  EXPECT_EQ(edit_distance("ab", "ba"), 1U);
+  EXPECT_EQ(edit_distance("ca", "abc"), 3U);
 }
 
 }  // namespace

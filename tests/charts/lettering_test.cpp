@@ -43,8 +43,8 @@ TEST(Lettering, TextIsAsWideAsItIsDrawn) {
     const auto [left, right] = ink_of(canvas.snapshot());
     const double width = line_width(text) * kCapitalHeight * kSize;
     EXPECT_NEAR(canvas.text_width(text, {kSize, {}, false}), width, 1e-9);
-    EXPECT_NEAR(left, 50, 0.12 * kSize) << text;
-    EXPECT_NEAR(right, 50 + width, 0.12 * kSize) << text;
+    EXPECT_NEAR(left, 50, 0.15 * kSize) << text;
+    EXPECT_NEAR(right, 50 + width, 0.15 * kSize) << text;
   }
 }
 

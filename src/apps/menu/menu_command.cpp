@@ -47,11 +47,12 @@ constexpr const char* kMenuNotes =
     "a head instead, rows t x y z qx qy qz qw (s, m, a quaternion; the head looks along -z), and what is\n"
     "looked at when it ends is chosen.\n"
     "\n"
-    "JSON: {file, kind, language, items: [{name, text, kind, centre: [x,y,z], normal: [x,y,z], width,\n"
+    "JSON: {file, kind, language, centre, normal, width, height, items: [{name, text, kind, centre: [x,y,z], "
+    "normal: [x,y,z], width,\n"
     "height, enabled, submenu: null or [items, as they lie when it is open]}]} (m, world frame). A list,\n"
     "tabs and a page have items: [those in them]; what has a value: value; a number: less and more\n"
-    "[x,y,z]; a colour: wheel {centre, inner, outer, corners: [full, white, black]}; rows that scroll:\n"
-    "scroll {first, seen, count, less, more, bar}.\n"
+    "[x,y,z]; a colour: wheel {centre, inner, outer, corners: [full, white, black]}; a slider:\n"
+    "groove {least, most} (its ends); rows that scroll: scroll {first, seen, count, less, more, bar}.\n"
     "With --path instead {chosen: [names, also of items that open a menu or page], choices: [{name, by,\n"
     "time_s, value, opens: null, \"menu\" or \"page\"}], seconds, near_s, pushes, max_force_n, "
     "max_force_step_n, tick_us: {median, p99, max} (null with look)}.";
@@ -222,6 +223,11 @@ class OpenElement {
       item["items"] = OpenElement(prepared_, open_, std::move(shown)).items(widget.widgets);
     } else if (widget.kind == WidgetKind::List) {
       item["scroll"] = scroll(&widget);
+    } else if (widget.kind == WidgetKind::Slider) {
+      const LaidWidget& laid = *layout_.widget(widget);
+      const auto groove = interaction::groove_of(laid, prepared_.element.text_height);
+      item["groove"] = {{"least", place({groove.left, laid.centre.y()})},
+                        {"most", place({groove.right, laid.centre.y()})}};
     } else if (widget.kind == WidgetKind::Number) {
       item["less"] = handle(HandleKind::Less, &widget);
       item["more"] = handle(HandleKind::More, &widget);
@@ -239,11 +245,16 @@ class OpenElement {
   interaction::ElementSettings settings_;
 };
 
-std::string layout_json(const Prepared& prepared, const MenuOptions& options) {
-  const OpenElement laid(prepared, {}, {});
+std::string layout_json(const Prepared& prepared, const ElementUse& use, const MenuOptions& options) {
+  const OpenElement laid(prepared, {}, use.shown());
+  const interaction::LaidSheet& sheet = use.layout().sheets.front();
   Json json{{"file", options.file.string()},
             {"kind", word_of(prepared.element.kind)},
             {"language", prepared.element.languages[prepared.language]},
+            {"centre", place_json(use.frame().in_world(sheet.centre))},
+            {"normal", place_json(use.frame().normal())},
+            {"width", 2.0 * sheet.half.x()},
+            {"height", 2.0 * sheet.half.y()},
             {"items", laid.items(prepared.element.widgets)}};
   if (Json scroll = laid.scroll(nullptr); !scroll.is_null()) json["scroll"] = std::move(scroll);
   return menu_json_text(json);
@@ -263,12 +274,12 @@ void append_rows(const Json& items, const std::string& indent, std::string& text
   }
 }
 
-std::string layout_text(const Prepared& prepared, const MenuOptions& options) {
+std::string layout_text(const Prepared& prepared, const ElementUse& use, const MenuOptions& options) {
   std::string text =
       fmt::format("{}: a {}, turned by {:.4g} degrees; mm, world frame\n", options.file.string(),
                   word_of(prepared.element.kind), prepared.element.turn * 180.0 / std::numbers::pi);
   text += fmt::format("  {:<28}{:>8}{:>8}{:>8}{:>14}\n", "item", "x", "y", "z", "size");
-  append_rows(OpenElement(prepared, {}, {}).items(prepared.element.widgets), "", text);
+  append_rows(OpenElement(prepared, {}, use.shown()).items(prepared.element.widgets), "", text);
   return text;
 }
 
@@ -385,7 +396,7 @@ base::Result<std::string> answer_of(Prepared& prepared, const MenuOptions& optio
     if (const auto written = write_picture(use, options, status); !written)
       return tl::unexpected(written.error());
   if (options.path) return answer_of_trial(use, options);
-  return options.json ? layout_json(prepared, options) : layout_text(prepared, options);
+  return options.json ? layout_json(prepared, use, options) : layout_text(prepared, use, options);
 }
 
 }  // namespace

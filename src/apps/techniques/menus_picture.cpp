@@ -24,19 +24,20 @@ using study::MenuFeel;
 constexpr int kMenusWidth = 1600, kMenusHeight = 1000;
 constexpr double kMenusMargin = 56.0;
 constexpr std::array kMenuKinds{ElementKind::Menu, ElementKind::Pie, ElementKind::Daisy};
-constexpr std::array kMenuFeels{MenuFeel::None, MenuFeel::Well, MenuFeel::Recess};
+constexpr std::array kMenuFeels{MenuFeel::None, MenuFeel::Well, MenuFeel::Recess, MenuFeel::Groove};
 
 using Quantity = double (*)(const MenuConditionResult&);
 double seconds_of(const MenuConditionResult& it) { return it.time.mean; }
 double percent_of(const MenuConditionResult& it) { return 100.0 * it.error_rate; }
 
 charts::Stroke stroke_of(MenuFeel feel, bool by_push) {
-  const charts::Hue hues[] = {charts::Hue::Grey, charts::Hue::Blue, charts::Hue::Vermilion};
+  const charts::Hue hues[] = {charts::Hue::Grey, charts::Hue::Blue, charts::Hue::Vermilion,
+                              charts::Hue::Green};
   const std::vector<double> dashes = by_push ? std::vector<double>{9.0, 7.0} : std::vector<double>{};
   return {charts::colour_of(hues[std::size_t(feel)]), 3.0, dashes};
 }
 
-/// One plot: six lines over the number of items, whose steps are drawn alike as their ratios are.
+/// One plot: eight lines over the number of items, whose steps are drawn alike as their ratios are.
 class MenusPlot {
  public:
   MenusPlot(Canvas& canvas, const Area& area, const MenuBenchResult& result, Quantity quantity, double most)
@@ -106,7 +107,7 @@ void draw_key(Canvas& canvas, double y) {
     for (const MenuFeel feel : kMenuFeels) {
       const Vector2 sample[] = {{x, y}, {x + 44.0, y}};
       canvas.line(sample, stroke_of(feel, by_push));
-      const char* const feels[] = {"without feel", "well", "recess"};
+      const char* const feels[] = {"without feel", "well", "recess", "groove"};
       const std::string label = fmt::format("{}, {}", by_push ? "push" : "click", feels[std::size_t(feel)]);
       canvas.text({x + 54.0, y + 5.0}, label, {15.0, charts::kInk});
       x += 84.0 + canvas.text_width(label, {15.0, charts::kInk});

@@ -29,8 +29,8 @@ const char* kind_word(const study::MenuCondition& condition) {
 }
 
 const char* feel_word(const study::MenuCondition& condition) {
-  if (condition.feel == MenuFeel::Well) return "well";
-  return condition.feel == MenuFeel::Recess ? "recess" : "none";
+  constexpr const char* kWords[] = {"none", "well", "recess", "groove"};
+  return kWords[std::size_t(condition.feel)];
 }
 
 const char* choose_word(const study::MenuCondition& condition) {

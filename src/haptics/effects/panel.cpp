@@ -173,7 +173,7 @@ PanelSide next_side(PanelSide last, double front, double height, const PanelSett
   const double deepest = Panel::free_behind(settings);
   if (last == PanelSide::Front) return height - front >= deepest ? PanelSide::Behind : PanelSide::Front;
   // Also a recess is come into from before the plane.
-  const double open = std::max(height, 0.0);
+  const double open = std::max(height, 0.0) + (last == PanelSide::Behind ? Panel::kInFront : 0.0);
   const bool is_held_behind = last == PanelSide::Behind && settings.sides == TouchableSides::Both;
   return front >= (is_held_behind ? height + deepest : open) ? PanelSide::Front : PanelSide::Behind;
 }

@@ -138,7 +138,7 @@ void EffectFeed::bring(const Member& member, double dt, bool newer) {
 }
 
 Vector3 EffectFeed::force(const EffectInput& input, double beside) {
-  Vector3 sum = Vector3::Zero();
+  Vector3 sum = Vector3::Zero(), panels = Vector3::Zero();
   for (const Member& it : newest_.read().members) {
     const base::Pose& pose = it.felt->whereabouts->at;
     if (passes_over(*it.felt, it.placed.mirrored, input.position)) continue;
@@ -147,9 +147,17 @@ Vector3 EffectFeed::force(const EffectInput& input, double beside) {
     EffectInput own = seen_from(pose, it.placed.mirrored, carried, input);
     own.device_mass = mass_share(input.device_mass, it.needs, it.together + beside);
     const Vector3 force = pose.linear() * across(it.placed.mirrored, it.felt->effect->force(own));
-    if (force.allFinite()) sum += eased(*it.felt, force, own);
+    if (force.allFinite()) (it.placed.panel ? panels : sum) += eased(*it.felt, force, own);
   }
-  return sum;
+  return sum + of_panels(panels, input.dt);
+}
+
+/// Sheets lie beside and over each other: together they change by what one alone may.
+Vector3 EffectFeed::of_panels(const Vector3& asked, double dt) {
+  const Vector3 change = asked - panels_;
+  const double most = Panel::kMostChange * dt;
+  panels_ = change.norm() > most ? Vector3(panels_ + change * (most / change.norm())) : asked;
+  return panels_;
 }
 
 /// Does the effect neither give a force nor change in this tick?
@@ -179,6 +187,7 @@ Vector3 EffectFeed::eased(Felt& felt, const Vector3& asked, const EffectInput& o
 }
 
 void EffectFeed::reset() {
+  panels_.setZero();
   for (const Member& it : newest_.read().members) {
     it.felt->effect->reset();
     it.felt->whereabouts->felt = false;

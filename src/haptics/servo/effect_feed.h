@@ -114,11 +114,13 @@ class EffectFeed {
   void bring(const Member& member, double dt, bool newer);
   static bool passes_over(const Felt& felt, bool mirrored, const Vector3& tip);
   Vector3 eased(Felt& felt, const Vector3& asked, const EffectInput& own) const;
+  Vector3 of_panels(const Vector3& asked, double dt);
 
   DeviceLimits limits_;
   Version published_;  // main's own copy of the newest
   realtime::LatestValue<Version> newest_;
-  double elapsed_ = 0.0;  // s, since the newest were taken; the servo's
+  double elapsed_ = 0.0;              // s, since the newest were taken; the servo's
+  Vector3 panels_ = Vector3::Zero();  // N, of all panels in the last tick; the servo's
 };
 
 }  // namespace icome::haptics

@@ -86,11 +86,19 @@ class ElementReader {
   void read_head(KeyReader& keys, Element& element) {
     element.kind = keys.word("kind", kKinds, ElementKind::Menu);
     element.title = keys.text("title", false);
+    check_printed(keys, "title", element.title);
     element.text_height = keys.number("text_m", element.text_height, 0.0005, 1.0);
     element.columns = std::uint32_t(keys.whole("columns", 0, 0, 100));
     element.rows = std::uint32_t(keys.whole("rows", 0, kFewestRows, kMostRows));
     if (element.rows > 0 && element.kind != ElementKind::Menu)
       problems_.add(keys.place_of("rows"), "the element: only a menu has rows.");
+    const auto refuse = [&](const char* key, const char* of, bool is_right) {
+      if (!is_right && keys.has(key))
+        problems_.add(keys.place_of(key), fmt::format("the element: {} is of a {}.", key, of));
+    };
+    refuse("columns", "toolbar", element.kind == ElementKind::Toolbar);
+    refuse("radius_m", "daisy", element.kind == ElementKind::Daisy);
+    refuse("cone_deg", "daisy", element.kind == ElementKind::Daisy);
     element.width = keys.number("width_m", element.width, 0.01, 10.0);
     element.radius = keys.number("radius_m", element.radius, 0.0, 10.0);
     element.cone = keys.number("cone_deg", 26.0, 1.0, 90.0) * std::numbers::pi / 180.0;
@@ -137,7 +145,8 @@ class ElementReader {
     fading.least = keys.number("least", fading.least, 0.0, 1.0);
     fading.seconds = keys.number("seconds", fading.seconds, 0.0, 10.0);
     if (fading.opaque >= fading.begins)
-      problems_.add(keys.place_of("opaque_m"), "fading: opaque_m must be below begins_m.");
+      problems_.add(keys.place_of(keys.has("opaque_m") ? "opaque_m" : "begins_m"),
+                    fmt::format("fading: opaque_m, {:g}, must be below begins_m.", fading.opaque));
     keys.finish();
   }
 
@@ -190,6 +199,7 @@ class ElementReader {
     widget.kind = keys.word("kind", kWidgetKinds, WidgetKind::Item);
     widget.name = keys.plain("name");
     widget.text = keys.text("text", false);
+    check_printed(keys, "text", widget.text);
     if (widget.text.empty() && widget.kind != WidgetKind::List)
       widget.text.assign(languages.size(), widget.name);
     check_name(keys, widget);
@@ -204,6 +214,7 @@ class ElementReader {
     widget.widgets = read_widgets(keys, "item", languages, widget.feel, depth + 1);
     places_[widget.name] = keys.place();
     read_kind(keys, widget);
+    check_kind(keys, widget);
     read_operation(keys, widget);
     keys.finish();
     return widget;
@@ -241,6 +252,30 @@ class ElementReader {
                     fmt::format("item '{}': only an item of kind \"item\", \"list\" or \"tabs\" "
                                 "has items in it.",
                                 widget.name));
+  }
+
+  /// Line ends and the like cannot be drawn.
+  void check_printed(KeyReader& keys, const std::string& key, const std::vector<std::string>& texts) {
+    const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
+    for (const std::string& text : texts)
+      if (std::ranges::any_of(text, is_control))
+        return problems_.add(
+            keys.place_of(key),
+            fmt::format("{} has control characters, such as ends of lines; write words.", key));
+  }
+
+  /// Keys that mean nothing there.
+  void check_kind(KeyReader& keys, const Widget& widget) {
+    const auto refuse = [&](const char* key, const char* of) {
+      if (keys.has(key))
+        problems_.add(keys.place_of(key), fmt::format("item '{}': {} is of {}.", widget.name, key, of));
+    };
+    const bool is_radio = widget.kind == WidgetKind::Radio;
+    if (!is_radio && widget.kind != WidgetKind::Check) refuse("checked", "a check or radio");
+    if (!is_radio) refuse("group", "a radio");
+    if (!widget.opens_menu()) return;
+    refuse("operation", "an item that opens no menu");
+    refuse("command", "an item that opens no menu");
   }
 
   void read_rows(KeyReader& keys, Widget& widget, int otherwise) {
@@ -318,6 +353,8 @@ class ElementReader {
       keys.require("name", "name = \"...\"");
       if (const TomlNode* const said = keys.value("name"); said && said->kind == TomlNode::Kind::String)
         problems_.add(keys.place_of("name"), "item: name is empty; write a word or more.");
+    } else if (widget.name.find_first_not_of(' ') == std::string::npos) {
+      problems_.add(keys.place_of("name"), "item: name is blank; write a word or more.");
     } else if (std::ranges::any_of(widget.name, [](unsigned char c) { return c < ' ' || c == 0x7f; })) {
       problems_.add(keys.place_of("name"), "item: name has control characters; write a word or more.");
     } else if (!names_.insert(widget.name).second) {
@@ -353,6 +390,10 @@ class ElementReader {
       if (widget.kind == WidgetKind::Radio && widget.checked && !groups.insert(widget.group).second)
         problems_.add(place_of(widget, place),
                       fmt::format("item '{}': another radio of its group is checked, too.", widget.name));
+      if ((widget.is_default || widget.is_cancel) && !widget.enabled)
+        problems_.add(
+            place_of(widget, place),
+            fmt::format("item '{}': what is disabled can be neither default nor cancel.", widget.name));
       if (widget.is_default && ++defaults > 1)
         problems_.add(place_of(widget, place), "the element: only one item can be the default.");
       if (widget.is_cancel && ++cancels > 1)
@@ -384,6 +425,7 @@ class ElementReader {
     widget.step = keys.number("step", is_number ? std::min(1.0, range) : 0.0, is_number ? 1e-9 : 0.0, range);
     widget.value = keys.number("value", widget.least, widget.least, widget.most);
     if (is_number) widget.unit = keys.plain("unit");
+    check_printed(keys, "unit", {widget.unit});
     widget.value_times = keys.number("value_times", 1.0, -1e9, 1e9);
     if (keys.has("value_times") && !keys.has("value_as"))
       problems_.add(keys.place_of("value_times"),

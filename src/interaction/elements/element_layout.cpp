@@ -25,6 +25,7 @@ constexpr double kWheel = 15.0;      // diameter of a ring of hues
 constexpr double kRingWidth = 1.9;   // of that ring
 constexpr double kCodeRoom = 8.5;    // for the code and the square of a colour, behind its name
 constexpr double kGap = 0.5;         // between buttons, and between an item and its menu
+constexpr double kWords = 30.0;      // width at which words of a menu are broken, at least
 constexpr double kLine = 1.7;        // height of a line of words
 constexpr double kRoom = 0.4;        // above and below the rows of a menu, and the words of a dialog
 
@@ -58,21 +59,11 @@ std::vector<std::string> broken(const std::string& text, double most, const Text
   return lines;
 }
 
-/// The room before the texts of widgets below each other.
+/// The room before the texts of widgets below each other, and for the digits of their numbers.
 struct TextRoom {
   bool marks = false, icons = false;
+  double field = 0.0;  // m
 };
-
-TextRoom room_of(const Widget& widget) { return {has_mark(widget), !widget.icon.empty()}; }
-
-TextRoom room_of(const std::vector<Widget>& widgets) {
-  TextRoom room;
-  for (const Widget& widget : widgets) {
-    room.marks = room.marks || has_mark(widget);
-    room.icons = room.icons || !widget.icon.empty();
-  }
-  return room;
-}
 
 /// Widgets below each other, of which not all need be seen.
 struct Rows {
@@ -82,6 +73,11 @@ struct Rows {
 
   bool scroll() const { return most > 0 && widgets.size() > most; }
 };
+
+/// Things that lie beside each other; those round a middle have no side.
+bool has_sides(ElementKind kind) {
+  return kind == ElementKind::Menu || kind == ElementKind::Toolbar || kind == ElementKind::Dialog;
+}
 
 class Arranger {
  public:
@@ -130,6 +126,24 @@ class Arranger {
     return title.empty() ? 0.0 : kBold * width_of(title) + 2.0 * kPadding * unit_;
   }
 
+  TextRoom room_of(const Widget& widget) const {
+    const bool is_number = widget.kind == WidgetKind::Number;
+    return {has_mark(widget), !widget.icon.empty(), is_number ? width_of_field(widget) : 0.0};
+  }
+
+  void widen(TextRoom& room, const Widget& widget) const {
+    const TextRoom own = room_of(widget);
+    room.marks = room.marks || own.marks;
+    room.icons = room.icons || own.icons;
+    room.field = std::max(room.field, own.field);
+  }
+
+  TextRoom room_of(const std::vector<Widget>& widgets) const {
+    TextRoom room;
+    for (const Widget& widget : widgets) widen(room, widget);
+    return room;
+  }
+
   /// The width of a field that holds every value of a Number.
   double width_of_field(const Widget& number) const {
     const std::string behind = number.unit.empty() ? "" : " " + number.unit;
@@ -149,7 +163,7 @@ class Arranger {
     if (room.icons) width += kIconRoom * unit_;
     if (widget.opens_menu()) width += kArrowRoom * unit_;
     if (widget.kind == WidgetKind::Slider) width += kSliderRoom * unit_;
-    if (widget.kind == WidgetKind::Number) width += 2.0 * kHandle * unit_ + width_of_field(widget);
+    if (widget.kind == WidgetKind::Number) width += 2.0 * kHandle * unit_ + room.field;
     return width;
   }
 
@@ -162,6 +176,8 @@ class Arranger {
         return size_of_list(widget);
       case WidgetKind::Tabs:
         return size_of_tabs(widget);
+      case WidgetKind::Label:
+        return size_of_words(words_of(widget));
       case WidgetKind::Colour: {
         const double text = width_of(text_of(widget, language_)) + kCodeRoom * unit_;
         return {std::max(text, kWheel * unit_) + 2.0 * kPadding * unit_, (kRow + kWheel + kPadding) * unit_};
@@ -229,7 +245,7 @@ class Arranger {
     if (widget.kind == WidgetKind::Number) {
       const Vector2 handle(0.5 * kHandle * unit_, std::min(half.y(), 0.5 * kRow * unit_));
       const double right = centre.x() + half.x() - handle.x();
-      const double left = right - width_of_field(widget) - 2.0 * handle.x();
+      const double left = right - room.field - 2.0 * handle.x();
       add_handle(HandleKind::Less, &widget, {left, centre.y()}, handle);
       add_handle(HandleKind::More, &widget, {right, centre.y()}, handle);
     }
@@ -241,7 +257,8 @@ class Arranger {
     if (widget.kind == WidgetKind::List) return place_list(widget, corner, size);
     if (widget.kind == WidgetKind::Tabs) return place_tabs(widget, corner, size);
     const Vector2 half = 0.5 * size;
-    place_row(widget, corner + Vector2(half.x(), -half.y()), half, room);
+    LaidWidget& laid = place_row(widget, corner + Vector2(half.x(), -half.y()), half, room);
+    if (widget.kind == WidgetKind::Label) laid.lines = words_of(widget);
   }
 
   void place_list(const Widget& list, const Vector2& corner, const Vector2& size) {
@@ -324,19 +341,23 @@ class Arranger {
     return rows;
   }
 
-  /// The upper left corner of a menu beside the item that opens it: to the right of its sheet, or to the left
-  /// where only there is room.
+  /// The upper left corner of a menu beside the item that opens it: to the right of its sheet, to the left of
+  /// an item in the left half of those round a middle, or on the other side where only there is room.
   Vector2 corner_beside(const LaidWidget& opener, const Vector2& size) const {
     const LaidSheet& sheet = layout_.sheets[opener.sheet];
     const double gap = kGap * unit_, top = opener.centre.y() + opener.half.y();
     const double right =
         std::max(sheet.centre.x() + sheet.half.x(), opener.centre.x() + opener.half.x()) + gap;
-    if (!shown_.room) return {right, top};
+    const double left = sheet.centre.x() - sheet.half.x() - gap - size.x();
+    const bool is_left = opener.sheet == 0 && !has_sides(element_.kind) && opener.centre.x() < -0.5 * unit_;
+    if (!shown_.room) return {is_left ? left : right, top};
     const Vector2 low = shown_.room->centre - shown_.room->half,
                   high = shown_.room->centre + shown_.room->half;
-    const double left = sheet.centre.x() - sheet.half.x() - gap - size.x();
     const double last = high.x() - size.x();
-    const double x = right <= last ? right : left >= low.x() ? left : std::max(last, low.x());
+    const bool fits_right = right <= last, fits_left = left >= low.x();
+    const double x = fits_right && !(is_left && fits_left) ? right
+                     : fits_left                           ? left
+                                                           : std::max(last, low.x());
     return {x, std::min(std::max(top, low.y() + size.y()), high.y())};
   }
 
@@ -374,56 +395,81 @@ class Arranger {
     return laid;
   }
 
-  /// The size of a widget of a dialog that is no button, with its words as they are broken.
-  Vector2 size_in_dialog(const Widget& widget, const std::vector<std::string>& words) const {
-    if (widget.kind != WidgetKind::Label) return size_of(widget, room_of(widget));
+  Vector2 size_of_words(const std::vector<std::string>& words) const {
     double widest = 0.0;
     for (const std::string& line : words) widest = std::max(widest, width_of(line));
     return {widest + 2.0 * kPadding * unit_, double(words.size()) * kLine * unit_ + kGap * unit_};
   }
 
   std::vector<std::string> words_of(const Widget& widget) const {
-    return broken(text_of(widget, language_), element_.width / unit_, measure_);
+    const bool is_dialog = element_.kind == ElementKind::Dialog;
+    const double width = element_.width / unit_;
+    return broken(text_of(widget, language_), is_dialog ? width : std::max(width, kWords), measure_);
+  }
+
+  /// The buttons of a dialog, as many beside each other as its words are wide at most.
+  std::vector<std::vector<const Widget*>> rows_of_buttons() const {
+    const double gap = kGap * unit_;
+    std::vector<std::vector<const Widget*>> rows;
+    double width = 0.0;
+    for (const Widget& widget : element_.widgets) {
+      if (widget.kind != WidgetKind::Item) continue;
+      const double own = width_of(widget, room_of(widget)) + gap;
+      if (rows.empty() || width + own > element_.width) {
+        rows.emplace_back();
+        width = gap;
+      }
+      rows.back().push_back(&widget);
+      width += own;
+    }
+    return rows;
+  }
+
+  double width_of_buttons(const std::vector<const Widget*>& row) const {
+    double width = kGap * unit_;
+    for (const Widget* const button : row) width += width_of(*button, room_of(*button)) + kGap * unit_;
+    return width;
   }
 
   /// Words below each other, then buttons beside each other.
   void arrange_dialog() {
     const double gap = kGap * unit_, row = kRow * unit_;
-    double width = width_of_title(title()), height = (title().empty() ? 0.0 : row) + kRoom * unit_;
-    double buttons = gap;
+    double width = width_of_title(title()), height = height_of_head(title()) + kRoom * unit_;
+    TextRoom room;
+    for (const Widget& widget : element_.widgets)
+      if (widget.kind != WidgetKind::Item) widen(room, widget);
     for (const Widget& widget : element_.widgets) {
-      if (widget.kind == WidgetKind::Item) {
-        buttons += width_of(widget, room_of(widget)) + gap;
-        continue;
-      }
-      const Vector2 size = size_in_dialog(widget, words_of(widget));
+      if (widget.kind == WidgetKind::Item) continue;
+      const Vector2 size = size_of(widget, room);
       width = std::max(width, size.x());
       height += size.y();
     }
-    const bool any_button = buttons > gap;
-    width = std::max(width, buttons);
-    if (any_button) height += row + 2.0 * gap;
+    const auto rows = rows_of_buttons();
+    for (const auto& buttons : rows) width = std::max(width, width_of_buttons(buttons));
+    if (!rows.empty()) height += double(rows.size()) * (row + gap) + gap;
     add_sheet(nullptr, Vector2::Zero(), 0.5 * Vector2(width, height), title());
-    place_dialog(Vector2(width, height), buttons);
+    place_dialog(Vector2(width, height), room, rows);
   }
 
-  void place_dialog(const Vector2& size, double buttons) {
+  void place_dialog(const Vector2& size, const TextRoom& room,
+                    const std::vector<std::vector<const Widget*>>& rows) {
     const double gap = kGap * unit_, row = kRow * unit_;
     double top = 0.5 * size.y() - layout_.sheets.back().title_height - kRoom * unit_;
-    double left = 0.5 * size.x() - buttons + gap;
     for (const Widget& widget : element_.widgets) {
-      if (widget.kind == WidgetKind::Item) {
-        const double width = width_of(widget, room_of(widget));
-        place_alone(widget, {left + 0.5 * width, -0.5 * size.y() + gap + 0.5 * row},
-                    0.5 * Vector2(width, row));
-        left += width + gap;
-        continue;
-      }
-      std::vector<std::string> words = words_of(widget);
-      const Vector2 own(size.x(), size_in_dialog(widget, words).y());
-      place(widget, {-0.5 * size.x(), top}, own, room_of(widget));
-      if (widget.kind == WidgetKind::Label) layout_.widgets.back().lines = std::move(words);
+      if (widget.kind == WidgetKind::Item) continue;
+      const Vector2 own(size.x(), size_of(widget, room).y());
+      place(widget, {-0.5 * size.x(), top}, own, room);
       top -= own.y();
+    }
+    double middle = -0.5 * size.y() + gap + 0.5 * row + double(rows.size() - 1) * (row + gap);
+    for (const auto& buttons : rows) {
+      double left = 0.5 * size.x() - width_of_buttons(buttons) + gap;
+      for (const Widget* const button : buttons) {
+        const double width = width_of(*button, room_of(*button));
+        place_alone(*button, {left + 0.5 * width, middle}, 0.5 * Vector2(width, row));
+        left += width + gap;
+      }
+      middle -= row + gap;
     }
   }
 
@@ -511,11 +557,6 @@ class Arranger {
   ElementLayout& layout_;
   double unit_;
 };
-
-/// Things that lie beside each other; those round a middle have no side.
-bool has_sides(ElementKind kind) {
-  return kind == ElementKind::Menu || kind == ElementKind::Toolbar || kind == ElementKind::Dialog;
-}
 
 void mirror(LaidBox& box) { box.centre.x() = -box.centre.x(); }
 

@@ -87,6 +87,8 @@ class ElementUse {
   std::optional<Choice> choose(std::string_view name_or_text);
 
   const Element& element() const { return element_; }
+  /// The rows and pages that show.
+  const ShownParts& shown() const { return shown_; }
   const ElementLayout& layout() const { return layout_; }
   /// The items whose menus are open, outermost first.
   const std::vector<const Widget*>& open() const { return open_; }

@@ -93,6 +93,8 @@ std::vector<Panel> placed_parts(const ElementUse& use, const std::vector<Element
   std::vector<Placed> placed;
   for (const ElementPart& part : parts) {
     const PartPlace place = place_of(use, part);
+    if (place.pose.linear()(2, 2) <= 0.0)
+      continue;  // seen from behind, its text would be the other way round
     placed.push_back({part.sheet, place.pose.translation().z(), panel_at(use, part, place)});
   }
   std::ranges::stable_sort(placed, [](const Placed& one, const Placed& other) {

@@ -447,7 +447,42 @@ double outside(const Vector2& offset, const Vector2& half, double radius) {
   return corner.cwiseMax(0.0).norm() + std::min(corner.maxCoeff(), 0.0) - radius;
 }
 
-/// How far a place lies outside what is seen of a sheet, m.
+/// The items of a ring, which are seen each by itself, sorted by height so that a place asks few.
+class RingItems {
+ public:
+  RingItems(const interaction::ElementUse& use, std::size_t sheet) : round_(0.6 * use.element().text_height) {
+    const LaidSheet& all = use.layout().sheets[sheet];
+    low_ = all.centre.y() - all.half.y();
+    for (const LaidWidget& laid : use.layout().widgets)
+      if (laid.sheet == sheet) height_ = std::max(height_, 2.0 * laid.half.y());
+    bands_.resize(1 + std::size_t(2.0 * all.half.y() / height_));
+    for (const LaidWidget& laid : use.layout().widgets) {
+      if (laid.sheet != sheet) continue;
+      const double reach = laid.half.y() + 0.25 * height_;
+      for (std::size_t i = band_of(laid.centre.y() - reach); i <= band_of(laid.centre.y() + reach); ++i)
+        bands_[i].push_back({laid.centre, laid.half});
+    }
+  }
+
+  /// How far a place lies outside of the nearest item, m; far from all of them some length above 0.
+  double outside_of(const Vector2& place) const {
+    double least = 1.0;
+    for (const LaidBox& box : bands_[band_of(place.y())])
+      least = std::min(least, outside(place - box.centre, box.half, round_));
+    return least;
+  }
+
+ private:
+  std::size_t band_of(double y) const {
+    return std::size_t(std::clamp((y - low_) / height_, 0.0, double(bands_.size() - 1)));
+  }
+
+  double round_, low_ = 0.0;
+  double height_ = 1e-6;  // m, of a band
+  std::vector<std::vector<LaidBox>> bands_;
+};
+
+/// How far a place lies outside what is seen of a sheet, m; of a ring without its items.
 double outside_sheet(const interaction::ElementUse& use, std::size_t number, const Vector2& place) {
   const LaidSheet& sheet = use.layout().sheets[number];
   const double round = 0.6 * use.element().text_height;
@@ -455,10 +490,7 @@ double outside_sheet(const interaction::ElementUse& use, std::size_t number, con
   const bool is_root = sheet.opened_by == nullptr;
   if (is_root && kind == ElementKind::Pie) return (place - sheet.centre).norm() - sheet.half.x();
   if (!is_root || kind != ElementKind::Ring) return outside(place - sheet.centre, sheet.half, round);
-  double least = sheet.title.empty() ? 1.0 : outside(place - sheet.centre, sheet.title_half, round);
-  for (const LaidWidget& laid : use.layout().widgets)
-    if (laid.sheet == number) least = std::min(least, outside(place - laid.centre, laid.half, round));
-  return least;
+  return sheet.title.empty() ? 1.0 : outside(place - sheet.centre, sheet.title_half, round);
 }
 
 /// The distance of a place of the plane from the part that is seen, m, < 0 in it.
@@ -505,9 +537,14 @@ charts::Image drawn_page(const interaction::ElementUse& use, const LaidSheet& pa
 
 charts::Image draw_sheet(const interaction::ElementUse& use, std::size_t sheet, ElementTheme theme,
                          double resolution) {
+  std::optional<RingItems> items;
+  if (sheet == 0 && use.element().kind == ElementKind::Ring) items.emplace(use, sheet);
   return drawn_page(
       use, use.layout().sheets[sheet], theme, resolution,
-      [&](const Vector2& place) { return outside_sheet(use, sheet, place); },
+      [&](const Vector2& place) {
+        const double away = outside_sheet(use, sheet, place);
+        return items ? std::min(away, items->outside_of(place)) : away;
+      },
       [&](SheetPainter& painter) { painter.paint(sheet); });
 }
 

@@ -17,6 +17,9 @@ base::Result<StageElement> read_stage_element(const SceneElement& element,
   if (read->place != interaction::ElementPlace::World)
     return base::fail(fmt::format("{}: an element of a study lies in its scene: write at = \"world\".",
                                   (folder / element.file).string()));
+  if (read->choosing.by_look)
+    return base::fail(fmt::format("{}: an element of a study is clicked or pushed: write by = \"both\".",
+                                  (folder / element.file).string()));
   read->centre = element.centre.value_or(read->centre);
   read->turn = element.turn.value_or(read->turn);
   return StageElement{element.id, std::make_shared<const interaction::Element>(std::move(*read))};

@@ -68,7 +68,7 @@ std::vector<MenuCondition> menu_conditions() {
   for (const ElementKind kind : {ElementKind::Menu, ElementKind::Pie, ElementKind::Daisy})
     for (const std::size_t items : {5U, 12U, 40U})
       for (const bool by_push : {false, true})
-        for (const MenuFeel feel : {MenuFeel::None, MenuFeel::Well, MenuFeel::Recess})
+        for (const MenuFeel feel : {MenuFeel::None, MenuFeel::Well, MenuFeel::Recess, MenuFeel::Groove})
           conditions.push_back({kind, items, by_push, feel});
   return conditions;
 }
@@ -85,6 +85,8 @@ interaction::Element menu_of(const MenuCondition& condition) {
     item.text = {item.name};
     item.feel.well = condition.feel == MenuFeel::Well ? usual.well : 0.0;
     item.feel.recess = condition.feel == MenuFeel::Recess ? usual.recess : 0.0;
+    // Between items, as Miller had them (thesis 4.4.1).
+    item.feel.ridge = condition.feel == MenuFeel::Groove ? -usual.recess : 0.0;
     element.widgets.push_back(std::move(item));
   }
   return element;

@@ -12,7 +12,7 @@
 namespace icome::study {
 
 /// The feel of a menu's items that the bench compares (thesis 4.4.2).
-enum class MenuFeel : std::uint8_t { None, Well, Recess };
+enum class MenuFeel : std::uint8_t { None, Well, Recess, Groove };
 
 /// One way of choosing from a menu.
 struct MenuCondition {

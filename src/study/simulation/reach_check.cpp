@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -16,6 +18,7 @@ namespace icome::study {
 namespace {
 
 constexpr std::size_t kMostTried = 100;
+constexpr double kHeldBack = 0.005;  // m behind a surface, more than a push: the hand is in something solid
 
 /// A trial for each target of each scene, the conditions in turn.
 std::vector<TrialPlan> trials_to_try(const Study& study) {
@@ -40,7 +43,16 @@ std::vector<TrialPlan> trials_to_try(const Study& study) {
   return plans;
 }
 
-/// Does the person choose the target in time? A trial that cannot be made counts: others tell why.
+/// The distance from a place to the target, m; 0 while that is in a menu that is still to be opened.
+double way_to_target(const TrialGoal& goal, const base::Vector3& from) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Thing& thing : goal.things)
+    if (thing.target && !thing.bounds.isEmpty()) least = std::min(least, thing.bounds.exteriorDistance(from));
+  return std::isfinite(least) ? least : 0.0;
+}
+
+/// Does the person choose the target in time, within an arm's length, with a hand that is held back by
+/// nothing solid? A trial that cannot be made counts: others tell why.
 bool is_reached(const Study& study, SceneReader& scenes, const SimulatedPerson& person,
                 const TrialPlan& plan) {
   const auto world = scenes.in_trial(plan);
@@ -48,9 +60,13 @@ bool is_reached(const Study& study, SceneReader& scenes, const SimulatedPerson& 
   if (!world || !element) return true;
   const auto goal = trial_goal(study, {}, plan, *world, *element);
   if (!goal) return true;
+  if (way_to_target(*goal, goal->start) > person.model().arm_length) return false;
   session::HapticRepresentation felt;
   felt.open(*world);
-  return person.trial(plan, *goal, {felt.scene(), felt.names()}).measures.completed;
+  const auto run = person.trial(plan, *goal, {felt.scene(), felt.names()});
+  if (!run.measures.completed || !goal->is_in_element()) return run.measures.completed;
+  const Sample& last = run.trace.samples.back();
+  return (last.tip - last.scp).norm() <= goal->depth + kHeldBack;
 }
 
 }  // namespace
@@ -69,10 +85,11 @@ void check_reach(const Study& study, const std::filesystem::path& folder, StudyC
   }
   for (const auto& [scene, targets] : missed)
     check.warnings.push_back(
-        {study.task->place, fmt::format("scene '{}': a simulated person did not choose {} within the limit "
-                                        "of {:g} s: is something in the "
-                                        "way, such as a wall or the floor, or is it too far away?",
-                                        scene, listed(targets), study.task->limit)});
+        {study.task->place,
+         fmt::format(
+             "scene '{}': a simulated person does not come to {} within {:g} s and an arm's length, or only "
+             "through something solid, such as a wall or the floor.",
+             scene, listed(targets), study.task->limit)});
 }
 
 }  // namespace icome::study

@@ -97,7 +97,10 @@ std::optional<bool> MenuActions::is_possible(const Widget& widget) const {
   const interaction::OperationCall call = session_.menu().use()->settings().call_of(widget);
   if (call.operation.empty()) return std::nullopt;
   const auto operation = interaction::find_operation(call.operation);
-  if (!operation) return false;
+  // Shapes that were bent by hand have no sizes, and a ball has no width.
+  const bool has_size = call.operation != "reshape" || widget.value_as.empty() ||
+                        session_.selection().empty() || !present(widget).is_null();
+  if (!operation || !has_size) return false;
   return asks_for_values(**operation, call.arguments) ||
          completed_fields(**operation, call.arguments, session_.selection()).has_value();
 }

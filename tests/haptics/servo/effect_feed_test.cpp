@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/random.h"
 #include "devices/simulated/simulated_device.h"
 #include "haptics/effects/effect_text.h"
 #include "haptics/servo/servo.h"
@@ -426,6 +427,55 @@ TEST(EffectFeed, TheServoAllocatesAndLocksNothingOnAPanelThatChanges) {
   main.join();
   if (!realtime::RealtimeGuard::available()) GTEST_SKIP() << "the sanitizer counts for itself";
   EXPECT_EQ(guard.allocations() + guard.frees() + guard.locks(), 0U) << ticks << " ticks";
+}
+
+// A menu, its menu and the menu of that: two edges fade over each other beside their gaps.
+TEST(EffectFeed, SheetsBesideEachOtherTogetherChangeByNoMoreThanOneMay) {
+  EffectFeed feed({.effective_mass = 0.1, .dt = 1e-3, .max_force = 10.0});
+  std::vector<PlacedEffect> sheets;
+  for (std::size_t i = 0; i < 3; ++i) {
+    PanelSettings panel;
+    panel.half = {0.02, 0.03};
+    panel.edge = 0.004;
+    PanelTarget target;
+    target.half = {0.018, 0.012};
+    target.well = 0.4;
+    target.recess = 0.0006;
+    panel.targets = {target};
+    PlacedEffect effect;
+    effect.id = i + 1;
+    effect.world_from_effect = Pose(Eigen::Translation3d(0.042 * (double(i) - 1.0), 0.0, 0.0));
+    effect.panel = std::make_shared<const PanelSettings>(std::move(panel));
+    sheets.push_back(std::move(effect));
+  }
+  feed.publish(sheets);
+  base::Random random(1);
+  const auto anywhere = [&] {
+    return Vector3(random.uniform(-0.07, 0.07), random.uniform(-0.04, 0.04), random.uniform(-0.015, 0.015));
+  };
+  EffectInput input;
+  input.position = {0.0, 0.0, 0.05};
+  Vector3 last = Vector3::Zero();
+  double most = 0.0, strongest = 0.0;
+  for (int leg = 0; leg < 2000; ++leg) {
+    const Vector3 from = input.position, to = anywhere();
+    const double speed = random.uniform(0.1, 2.0);
+    const int ticks = 1 + int((to - from).norm() / speed * 1000.0);
+    for (int i = 1; i <= ticks; ++i) {
+      const Vector3 before = input.position;
+      input.position = from + double(i) / ticks * (to - from);
+      input.velocity = (input.position - before) * 1000.0;
+      input.scp = input.position;
+      input.time += 1e-3;
+      feed.follow(1e-3);
+      const Vector3 force = feed.force(input, 0.0);
+      most = std::max(most, (force - last).norm());
+      strongest = std::max(strongest, force.norm());
+      last = force;
+    }
+  }
+  EXPECT_LE(most, Panel::kMostChange * 1e-3 + 1e-9);
+  EXPECT_GT(strongest, 2.0);
 }
 
 }  // namespace

@@ -38,6 +38,16 @@ TEST(ElementFile, SaysWhatIsWrongAndWhere) {
       wrong("[choosing]\nnear_m = 0.002\n[[item]]\nname = \"A\"\n").find("m.toml:2:10: choosing: near_m"),
       std::string::npos)
       << "a push of 3 mm would end the nearness";
+  for (const char* const toml :
+       {"[[item]]\nname = \"A\"\nchecked = true\n",
+        "[[item]]\nname = \"A\"\nkind = \"check\"\ngroup = \"g\"\n",
+        "[[item]]\nname = \"A\"\ncommand = \"edit.undo\"\n[[item.item]]\nname = \"B\"\n",
+        "columns = 2\n[[item]]\nname = \"A\"\n", "kind = \"ring\"\ncone_deg = 20\n[[item]]\nname = \"A\"\n",
+        "[[item]]\nname = \" \"\n", "[[item]]\nname = \"A\"\ntext = \"a\\u0007\"\n",
+        "kind = \"dialog\"\n[[item]]\nname = \"A\"\nenabled = false\ndefault = true\n",
+        "[[item]]\nname = \"A\"\nkind = \"number\"\nunit = \"\\n\"\n"})
+    EXPECT_NE(wrong(toml), "") << toml;
+  EXPECT_NE(wrong("[fading]\nbegins_m = 0.001\n[[item]]\nname = \"A\"\n").find(":2:"), std::string::npos);
   EXPECT_NE(wrong("kind = \"dialog\"\n[[item]]\nname = \"A\"\ndefault = true\n[[item]]\nname = "
                   "\"B\"\ndefault = true\n")
                 .find("only one item can be the default"),

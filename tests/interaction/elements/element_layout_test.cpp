@@ -261,6 +261,49 @@ TEST(ElementLayout, LanguagesThatRunFromTheRightAreTheOtherWayRound) {
   EXPECT_GT(numbers, 20U);
 }
 
+TEST(ElementLayout, ManyButtonsOfADialogLieInRowsAndLongWordsOfAMenuInLines) {
+  std::string toml = "kind = \"dialog\"\nwidth_m = 0.1\n";
+  for (int i = 0; i < 11; ++i) toml += "[[item]]\nname = \"Button " + std::to_string(i) + "\"\n";
+  const Element dialog = element_of(toml);
+  const ElementLayout laid = lay_out(dialog, 0, even_letters());
+  EXPECT_LE(2.0 * laid.sheets.front().half.x(), 0.1 + 1e-9);
+  expect_apart(laid);
+  EXPECT_GT(laid.widget(dialog.widgets.front())->centre.y(), laid.widget(dialog.widgets.back())->centre.y());
+  const Element menu = element_of("[[item]]\nkind = \"label\"\ntext = \"" + std::string(40, 'a') + " " +
+                                  std::string(40, 'b') + "\"\n[[item]]\nname = \"One\"\n");
+  const ElementLayout lines = lay_out(menu, 0, even_letters());
+  EXPECT_EQ(lines.widgets.front().lines.size(), 2U);
+  expect_apart(lines);
+}
+
+TEST(ElementLayout, NumbersBelowEachOtherHaveTheirSignsBelowEachOther) {
+  const Element element = element_of(
+      "[[item]]\nname = \"A\"\nkind = \"number\"\nmost = 3\n[[item]]\nname = \"B\"\nkind = \"number\"\n"
+      "most = 1000000000\nunit = \"mm\"\n");
+  const ElementLayout layout = lay_out(element, 0, even_letters());
+  const auto x = [&](HandleKind kind, std::size_t number) {
+    return layout.handle(kind, &element.widgets[number])->box.centre.x();
+  };
+  EXPECT_EQ(x(HandleKind::Less, 0), x(HandleKind::Less, 1));
+  EXPECT_EQ(x(HandleKind::More, 0), x(HandleKind::More, 1));
+}
+
+TEST(ElementLayout, MenusOfARingOpenOnTheSideOfTheirItem) {
+  std::string toml = "kind = \"ring\"\n";
+  for (int i = 0; i < 8; ++i)
+    toml += "[[item]]\nname = \"" + std::to_string(i) + "\"\n[[item.item]]\nname = \"in " +
+            std::to_string(i) + "\"\n";
+  const Element element = element_of(toml);
+  for (const Widget& opener : element.widgets) {
+    const std::vector<const Widget*> open{&opener};
+    const ElementLayout layout = lay_out(element, 0, even_letters(), open);
+    const double item = layout.widget(opener)->centre.x();
+    if (std::abs(item) > 0.5 * element.text_height) {
+      EXPECT_GT(item * layout.sheets[1].centre.x(), 0.0) << opener.name;
+    }
+  }
+}
+
 TEST(ElementLayout, AFieldHoldsEveryValueOfItsNumber) {
   const Element element =
       element_of("[[item]]\nname = \"N\"\nkind = \"number\"\nleast = -1000\nmost = 20000\nunit = \"mm\"\n");

@@ -44,7 +44,7 @@ TEST(TransferTable, NamesThePlaceOfWhatIsWrong) {
   EXPECT_NE(wrong("[move_x\n"), "");
   EXPECT_EQ(wrong("[move_x]\nslope1 = -1\n[turn_q]\n[move_y]\nslope2 = \"x\"\n"),
             "head.toml:2:10: slope1 must be a number from 0 to 100\n"
-            "head.toml:3:2: a head has no axis \"turn_q\"; did you mean turn_x?\n"
+            "head.toml:3:2: a head has no axis \"turn_q\"; did you mean 'turn_x'?\n"
             "head.toml:5:10: slope2 must be a number from 0 to 100");
 }
 

@@ -97,7 +97,7 @@ TEST(MenuBench, GivesTheSameBitsOnAnyNumberOfThreads) {
   settings.trials = 2;
   const auto one = run_menu_bench(settings), other = run_menu_bench(settings);
   ASSERT_TRUE(one && other);
-  ASSERT_EQ(one->conditions.size(), 54U);
+  ASSERT_EQ(one->conditions.size(), 72U);
   for (std::size_t i = 0; i < one->conditions.size(); ++i) {
     EXPECT_EQ(one->conditions[i].time.mean, other->conditions[i].time.mean);
     EXPECT_EQ(one->conditions[i].way, other->conditions[i].way);
