@@ -39,7 +39,7 @@ class TechniquesTest(ProgramTest):
         rows = report["conditions"]
         self.assertEqual({(it["menu"], it["items"], it["choose"], it["feel"]) for it in rows},
                          {(menu, items, choose, feel) for menu in ("list", "pie", "daisy") for items in (5, 12, 40)
-                          for choose in ("click", "push") for feel in ("none", "well", "recess")})
+                          for choose in ("click", "push") for feel in ("none", "well", "recess", "groove")})
         for it in rows:
             self.assertTrue(0.5 < it["time_s"] <= 11)
             self.assertTrue(0 <= it["error_rate"] <= 1)

@@ -66,8 +66,8 @@ enum class PanelSide : std::uint8_t {
 
 /// The side of a tip that is over a panel, after that of the last tick: `front` is its distance to the plane
 /// and `height` that of the relief there, both m and > 0 in front. It stays on its side; only through the
-/// open plane from behind, by kInFront so that a trembling hand that goes back has not come out, or where the ground has
-/// let go, does it come to the other one. Real-time safe.
+/// open plane from behind, by kInFront so that a trembling hand that goes back has not come out, or where the
+/// ground has let go, does it come to the other one. Real-time safe.
 PanelSide next_side(PanelSide last, double front, double height, const PanelSettings& settings);
 
 /// The flat ground of an interface element that lies in the scene, in its own plane z = 0, with front +z: it
@@ -86,7 +86,7 @@ class Panel final : public Effect {
  public:
   static constexpr double kMostChange = 400.0;  // N/s: 0.4 N in a tick at 1 kHz
   static constexpr double kLetsGo = 0.004;      // m, over which the ground lets go, from way_through on
-  static constexpr double kInFront = 0.002;     // m, before the plane: a hand from behind has come out by then
+  static constexpr double kInFront = 0.002;  // m, before the plane: a hand from behind has come out by then
 
   /// The depth (m) behind which a hand is free of a ground with these settings.
   static double free_behind(const PanelSettings& settings) {

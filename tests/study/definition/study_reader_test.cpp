@@ -275,7 +275,7 @@ TEST(StudyReader, TellsWhatABinomialTestCannotCompare) {
     EXPECT_NE(error.find(words), std::string::npos) << error;
   };
   says("test = \"binomial\"\nanswers = [\"new\", \"odl\"]\n",
-       "'best' has no choice 'odl'; there are new, old, same.");
+       "'best' has no choice 'odl'; did you mean 'old'?");
   says("test = \"binomial\"\nanswers = [\"new\"]\n", "answers are the two that are compared");
   says("test = \"binomial\"\nanswers = [\"new\", \"new\"]\n", "answers are the two that are compared");
   says("test = \"binomial\"\nexpected = \"new > new\"\n", "compares an answer with itself");

@@ -435,7 +435,7 @@ TEST_F(MenuActionsTest, ADialogIsAnsweredOnceAndMayClearTheScene) {
   key(Qt::Key_Space);
   ASSERT_TRUE(is_open());
   key(Qt::Key_Return);  // Keep
-  EXPECT_FALSE(is_open());
+  EXPECT_TRUE(until([&] { return !is_open(); }));
   EXPECT_EQ(session().world().objects().size(), count);
   key(Qt::Key_Space);
   ASSERT_TRUE(session().menu().choose("Clear"));
