@@ -193,7 +193,7 @@ void Canvas::line(std::span<const Vector2> points, const Stroke& stroke) {
 }
 
 void Canvas::text(const Vector2& at, std::string_view text, const TextStyle& style) {
-  SetLine line(text, style.bold);
+  const SetLine line(text, style.bold);
   cairo_save(page_->cairo);
   cairo_translate(page_->cairo, at.x(), at.y());
   cairo_rotate(page_->cairo, -style.turn);

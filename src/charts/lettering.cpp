@@ -1,5 +1,7 @@
 #include "charts/lettering.h"
 
+#include <pango/pangocairo.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -57,39 +59,37 @@ struct Setting {
 };
 
 PangoLayout* layout_of_thread() {
-  thread_local const Setting setting;
+  thread_local Setting setting;
   return setting.layout.get();
 }
 
 }  // namespace
 
-SetLine::SetLine(std::string_view text, bool bold) : layout_(layout_of_thread()) {
+SetLine::SetLine(std::string_view text, bool bold) {
+  PangoLayout* const layout = layout_of_thread();
   PangoFontDescription* const font = pango_font_description_new();
   pango_font_description_set_family_static(font, kFamily);
   pango_font_description_set_weight(font, bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
   pango_font_description_set_absolute_size(font, kSetSize * PANGO_SCALE);
-  pango_layout_set_font_description(layout_, font);
+  pango_layout_set_font_description(layout, font);
   pango_font_description_free(font);
   const std::string shown = printable(text);
-  pango_layout_set_text(layout_, shown.data(), int(shown.size()));
+  pango_layout_set_text(layout, shown.data(), int(shown.size()));
   // Measured alike, whatever page the line before was drawn on.
-  pango_context_set_matrix(pango_layout_get_context(layout_), nullptr);
-}
-
-double SetLine::width() const {
+  pango_context_set_matrix(pango_layout_get_context(layout), nullptr);
   int width = 0;
-  pango_layout_get_size(layout_, &width, nullptr);
-  return width / (PANGO_SCALE * kSetSize);
+  pango_layout_get_size(layout, &width, nullptr);
+  width_ = width / (PANGO_SCALE * kSetSize);
+  unknown_letters_ = pango_layout_get_unknown_glyphs_count(layout);
 }
 
-int SetLine::unknown_letters() const { return pango_layout_get_unknown_glyphs_count(layout_); }
-
-void SetLine::show(cairo_t* cairo, double x, double size) {
+void SetLine::show(_cairo* cairo, double x, double size) const {
+  PangoLayout* const layout = layout_of_thread();
   cairo_save(cairo);
   cairo_scale(cairo, size / kSetSize, size / kSetSize);
-  pango_cairo_update_layout(cairo, layout_);
-  cairo_move_to(cairo, x / size * kSetSize, -double(pango_layout_get_baseline(layout_)) / PANGO_SCALE);
-  pango_cairo_show_layout(cairo, layout_);
+  pango_cairo_update_layout(cairo, layout);
+  cairo_move_to(cairo, x / size * kSetSize, -double(pango_layout_get_baseline(layout)) / PANGO_SCALE);
+  pango_cairo_show_layout(cairo, layout);
   cairo_restore(cairo);
 }
 

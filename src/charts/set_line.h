@@ -1,7 +1,7 @@
 #pragma once
-#include <pango/pangocairo.h>
-
 #include <string_view>
+
+struct _cairo;  // a cairo_t, whose header stays in sources
 
 namespace icome::charts {
 
@@ -12,14 +12,15 @@ class SetLine {
   SetLine(std::string_view text, bool bold);
 
   /// Its width at size 1.
-  double width() const;
+  double width() const { return width_; }
   /// Places that show a box, since no font here has their letter.
-  int unknown_letters() const;
+  int unknown_letters() const { return unknown_letters_; }
   /// Draws it at that size with its baseline in the origin of the page and its start at `x`.
-  void show(cairo_t* cairo, double x, double size);
+  void show(_cairo* cairo, double x, double size) const;
 
  private:
-  PangoLayout* layout_;  // the thread's
+  double width_ = 0.0;
+  int unknown_letters_ = 0;
 };
 
 }  // namespace icome::charts
