@@ -47,14 +47,14 @@ constexpr const char* kMenuNotes =
     "a head instead, rows t x y z qx qy qz qw (s, m, a quaternion; the head looks along -z), and what is\n"
     "looked at when it ends is chosen.\n"
     "\n"
-    "JSON: {file, kind, language, centre, normal, width, height, items: [{name, text, kind, centre: [x,y,z], "
-    "normal: [x,y,z], width,\n"
-    "height, enabled, submenu: null or [items, as they lie when it is open]}]} (m, world frame). A list,\n"
-    "tabs and a page have items: [those in them]; what has a value: value; a number: less and more\n"
-    "[x,y,z]; a colour: wheel {centre, inner, outer, corners: [full, white, black]}; a slider:\n"
-    "groove {least, most} (its ends); rows that scroll: scroll {first, seen, count, less, more, bar}.\n"
+    "JSON: {file, kind, language, centre: [x,y,z], normal: [x,y,z], width, height, items: [{name, text,\n"
+    "kind, centre, normal, width, height, enabled, submenu: null or [items, as they lie when it is\n"
+    "open]}]} (m, world frame). A list, tabs and a page have items: [those in them]; what has a value:\n"
+    "value; a number: less and more [x,y,z]; a slider: groove {least, most} (its ends); a colour:\n"
+    "wheel {centre, inner, outer, corners: [full, white, black]}; rows that scroll: scroll {first, seen,\n"
+    "count, less, more, bar}.\n"
     "With --path instead {chosen: [names, also of items that open a menu or page], choices: [{name, by,\n"
-    "time_s, value, opens: null, \"menu\" or \"page\"}], seconds, near_s, pushes, max_force_n, "
+    "time_s, value, opens: null, \"menu\" or \"page\"}], seconds, near_s, pushes, max_force_n,\n"
     "max_force_step_n, tick_us: {median, p99, max} (null with look)}.";
 
 const char* word_of(interaction::ElementKind kind) {
