@@ -38,7 +38,7 @@ struct Unref {
   void operator()(void* object) const { g_object_unref(object); }
 };
 
-/// What a thread sets its lines with.
+/// Pango's objects of one thread, which sets its lines with them.
 struct Setting {
   std::unique_ptr<PangoContext, Unref> context{
       pango_font_map_create_context(pango_cairo_font_map_get_default())};

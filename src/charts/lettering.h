@@ -4,7 +4,7 @@
 
 namespace icome::charts {
 
-// How lines of text are set: in DejaVu Sans and, where that lacks a letter, in any other font of the desktop
+// Lines of text are set in DejaVu Sans and, where that lacks a letter, in any other font of the desktop
 // that has it; scripts that join or run from right to left as their readers expect. The text is UTF-8; bytes
 // that are not count as replacement marks. Every thread may call these.
 

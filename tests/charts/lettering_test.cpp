@@ -68,7 +68,7 @@ TEST(Lettering, LettersThatJoinAreSetTogether) {
 }
 
 TEST(Lettering, LettersThatNoFontHasAreTold) {
-  // Of a private plane, which fonts leave alone.
+  // Letters of a private plane, which fonts leave alone.
   EXPECT_EQ(letters_without_font("a\U0010fffdb\U0010fffd c\U0010fffc"), "\U0010fffd\U0010fffc");
   EXPECT_EQ(letters_without_font("Sketch \u00e9\u0416\u05d0\u0633"), "");
   EXPECT_EQ(letters_without_font(""), "");

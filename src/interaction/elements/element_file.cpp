@@ -40,6 +40,10 @@ const Words<ElementPlace> kPlaces = {{"world", ElementPlace::World},
                                      {"hand", ElementPlace::Hand},
                                      {"pointer", ElementPlace::Pointer}};
 
+bool has_control_characters(const std::string& text) {
+  return std::ranges::any_of(text, [](unsigned char c) { return c < ' ' || c == 0x7f; });
+}
+
 class ElementReader {
  public:
   base::Result<Element> read(std::string_view text, const std::string& source) {
@@ -256,9 +260,8 @@ class ElementReader {
 
   /// Line ends and the like cannot be drawn.
   void check_printed(KeyReader& keys, const std::string& key, const std::vector<std::string>& texts) {
-    const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
     for (const std::string& text : texts)
-      if (std::ranges::any_of(text, is_control))
+      if (has_control_characters(text))
         return problems_.add(
             keys.place_of(key),
             fmt::format("{} has control characters, such as ends of lines; write words.", key));
@@ -355,7 +358,7 @@ class ElementReader {
         problems_.add(keys.place_of("name"), "item: name is empty; write a word or more.");
     } else if (widget.name.find_first_not_of(' ') == std::string::npos) {
       problems_.add(keys.place_of("name"), "item: name is blank; write a word or more.");
-    } else if (std::ranges::any_of(widget.name, [](unsigned char c) { return c < ' ' || c == 0x7f; })) {
+    } else if (has_control_characters(widget.name)) {
       problems_.add(keys.place_of("name"), "item: name has control characters; write a word or more.");
     } else if (!names_.insert(widget.name).second) {
       problems_.add(keys.place_of("name"), fmt::format("item: there are two of the name '{}'.", widget.name));

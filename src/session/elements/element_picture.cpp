@@ -464,7 +464,7 @@ class RingItems {
     }
   }
 
-  /// How far a place lies outside of the nearest item, m; far from all of them some length above 0.
+  /// Distance of a place from the nearest item, m, < 0 in it; far from all of them some length above 0.
   double outside_of(const Vector2& place) const {
     double least = 1.0;
     for (const LaidBox& box : bands_[band_of(place.y())])
@@ -482,7 +482,7 @@ class RingItems {
   std::vector<std::vector<LaidBox>> bands_;
 };
 
-/// How far a place lies outside what is seen of a sheet, m; of a ring without its items.
+/// Distance of a place from what is seen of a sheet, m, < 0 in it; of a ring without its items.
 double outside_sheet(const interaction::ElementUse& use, std::size_t number, const Vector2& place) {
   const LaidSheet& sheet = use.layout().sheets[number];
   const double round = 0.6 * use.element().text_height;

@@ -6,10 +6,10 @@
 
 namespace icome::study {
 
-/// How well a simulated person sees depth in a trial: from the picture alone, with an image for each eye, and
-/// by swaying a tracked head, whose view moves as it does for people (interaction::HeadMotion). Each is a
-/// measurement of its own; they combine by their variances (Landy, Maloney, Johnston and Young 1995). Values
-/// are of a plausible size, and nobody's measurement.
+/// The sharpness with which a simulated person sees depth in a trial: from the picture alone, with an image
+/// for each eye, and by swaying a tracked head, whose view moves as it does for people
+/// (interaction::HeadMotion). Each is a measurement of its own; they combine by their variances (Landy,
+/// Maloney, Johnston and Young 1995). Values are of a plausible size, and nobody's measurement.
 class DepthSight {
  public:
   // The deviation of depth seen in a picture, as a share of the distance (chosen).
@@ -29,7 +29,7 @@ class DepthSight {
   void recentre();
   /// The deviation of depth as it is seen now, m.
   double deviation() const;
-  /// How far the view has moved from side to side, m.
+  /// Distance between the places farthest aside that the view had, m.
   double width() const { return most_ - least_; }
 
  private:
