@@ -54,7 +54,7 @@ class Sharing : public testing::Test {
   }
   void until_same() {
     until([&] {
-      return ann_->sharing().state()->unsent == 0 && bob_->sharing().state()->unsent == 0 &&
+      return ann_->sharing().state().value().unsent == 0 && bob_->sharing().state().value().unsent == 0 &&
              hash(ann_->world()) == hash(bob_->world());
     });
   }
@@ -273,7 +273,7 @@ TEST_F(Sharing, LetsOneChooseWhereOthersChangedTheSameWhileThereWasNoConnection)
   for (const ObjectId id : {leg, lamp}) move(*bob_, id, 2.0);
   ASSERT_TRUE(bob_->history().perform(world::DeleteObject{vase}, "Delete vase"));
   served_.start();
-  run_until(*bob_, [&] { return bob_->sharing().state()->unsent == 0; });
+  run_until(*bob_, [&] { return bob_->sharing().state().value().unsent == 0; });
   until([&] { return has(told_ann_, SessionEvent::Kind::Conflicts); });
   const auto conflicts = ann_->sharing().conflicts();
   ASSERT_EQ(conflicts.size(), 3U);
@@ -307,7 +307,7 @@ TEST_F(Sharing, DeletesNothingWithoutAConnectionThatAnotherHoldsMeanwhile) {
   });
   ASSERT_TRUE(ann_->history().perform(world::DeleteObject{leg}, "Delete leg"));
   served_.start();
-  const auto is_live = [&] { return bob_->sharing().state()->connection == ConversationState::Live; };
+  const auto is_live = [&] { return bob_->sharing().state().value().connection == ConversationState::Live; };
   run_until(*bob_, is_live);
   bob_->select({leg});
   run_until(*bob_, [&] {
@@ -344,7 +344,7 @@ TEST_F(Sharing, KeepsAChoiceThatWasPutOffForTheNextProgram) {
   for (const ObjectId id : {leg, lamp})
     ASSERT_TRUE(bob_->history().perform(world::PlaceObject{id, world::at(0, 2, 0)}, "Move"));
   served_.start();
-  run_until(*bob_, [&] { return bob_->sharing().state()->unsent == 0; });
+  run_until(*bob_, [&] { return bob_->sharing().state().value().unsent == 0; });
   until([&] { return has(told_ann_, SessionEvent::Kind::Conflicts); });
   for (int program = 0; program < 2; ++program) {
     const auto conflicts = ann_->sharing().conflicts();
@@ -374,12 +374,12 @@ TEST_F(Sharing, KeepsWorkWithoutAServerAgainstCrashes) {
   eve->sharing().open(served_.link(Role::Edit));
   run_until(*eve, [&] { return eve->sharing().state().has_value(); });
   add_box(*eve, world::at(0, 0, 0), "kept by the server");
-  run_until(*eve, [&] { return eve->sharing().state()->unsent == 0; });
+  run_until(*eve, [&] { return eve->sharing().state().value().unsent == 0; });
   eve->settle();
   EXPECT_TRUE(find_recoverable_work(folder).empty());
   EXPECT_TRUE(!std::filesystem::exists(folder) || std::filesystem::is_empty(folder));
   served_.stop();
-  run_until(*eve, [&] { return eve->sharing().state()->connection == ConversationState::Away; });
+  run_until(*eve, [&] { return eve->sharing().state().value().connection == ConversationState::Away; });
   const ObjectId mine = add_box(*eve, world::at(1, 0, 0), "mine");
   eve->settle();
   eve.reset();  // as a crash does, it tells nobody
