@@ -1,4 +1,5 @@
 """Runs icome animate as a person would: makes projects by script, renders and records them."""
+import gzip
 import json
 import math
 import os
@@ -108,6 +109,19 @@ class Animate(unittest.TestCase):
                 if 19 <= abs(x + 0.5 - middle) <= 21:
                     continue
                 self.assertEqual(rows[50][x][:3], expected, (frame, x))
+
+    def test_packed_svg_is_drawn_as_the_plain_one(self):
+        (self.folder / "packed.svgz").write_bytes(gzip.compress(SQUARE.encode()))
+        pictures = []
+        for name in ("square.svg", "packed.svgz"):
+            script = self.script({"op": "stage", "width": 60, "height": 40}, {"op": "add-cell", "pictures": name})
+            animate("new", "--apply", script, "--save", "one.cutout", cwd=self.folder)
+            animate("one.cutout", "--frames", "0-0", "--out", "one.png", cwd=self.folder)
+            pictures.append((self.folder / "one.png").read_bytes())
+        self.assertEqual(*pictures)
+        (self.folder / "packed.svgz").write_bytes(gzip.compress(SQUARE.encode())[:-20])
+        told = animate("one.cutout", "--out", "two.png", "--frames", "0-0", cwd=self.folder)
+        self.assertIn("packed.svgz", told.stderr)
 
     def test_gives_the_same_bytes_each_time(self):
         project = self.small_project()

@@ -1,6 +1,7 @@
 """icome sketch: fits held against the samples by dense sampling written here, pictures, edits, and what is wrong."""
 import json
 import math
+import struct
 import unittest
 
 from icome_program import ProgramTest
@@ -29,6 +30,15 @@ def to_line(point, line):
 def distance_of(segments, samples):
     curve = [at(segment, k / 200) for segment in segments for k in range(201)]
     return max(max(to_line(place, samples) for place in curve), max(to_line(place, curve) for place in samples))
+
+
+def stl_volume(file):
+    """The volume that the triangles of a binary STL file enclose, by the divergence theorem."""
+    volume = 0.0
+    for record in struct.iter_unpack("<12fH", file.read_bytes()[84:]):
+        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = record[3:6], record[6:9], record[9:12]
+        volume += ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
+    return volume / 6
 
 
 class SketchTest(ProgramTest):
@@ -132,6 +142,18 @@ class SketchTest(ProgramTest):
             wrong = self.write("wrong.jsonl", '{"op": "extrude", "profile": "paper", "steps": [{"move": [0, 0, 1]}], '
                                + bad + '}\n')
             self.fails("edit", design, "--apply", wrong, "--out", self.folder / "x.icome", code=1, saying=saying)
+
+    def test_holes_of_a_drawing_are_swept_along(self):
+        svg = self.write("frame.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" '
+                         'viewBox="0 0 100 100"><path fill-rule="evenodd" fill="#000" '
+                         'd="M10 10H90V90H10Z M30 30H70V70H30Z"/></svg>')
+        design, out, stl = (self.folder / name for name in ("frame.icome", "swept.icome", "frame.stl"))
+        self.succeeds("sketch", "model", svg, design, "--drawing")
+        edits = self.write("sweep.jsonl", '{"op": "extrude", "profile": "frame", "name": "swept", '
+                           '"steps": [{"move": [0, 0, 0.01]}]}\n{"op": "delete", "objects": ["frame"]}\n')
+        self.succeeds("edit", design, "--apply", edits, "--out", out)
+        self.succeeds("convert", out, stl)
+        self.assertAlmostEqual(stl_volume(stl), (0.08 * 0.08 - 0.04 * 0.04) * 0.01, delta=1e-8)
 
     def test_what_is_wrong_is_named_with_its_line(self):
         for text, saying in [("a,b\n1,2\n", "s.csv:1"), (HEADER + "0,nan,0,1\n", "s.csv:2"),

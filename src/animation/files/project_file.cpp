@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "io/file_bytes.h"
 #include "io/new_file.h"
@@ -27,23 +29,64 @@ std::string system_error_of(const std::filesystem::path& path) {
   return fmt::format("{}: {}", path.string(), std::strerror(errno));
 }
 
+// What lines begin with that are no edit by themselves.
+constexpr std::string_view kPart = "part ", kWhole = "whole ";
+/// The line of a program that has taken up parts of a recording whose end is missing.
+constexpr std::string_view kTakenUp = "parts taken up";
+
+/// Takes up the lines of a journal.
+class Replay {
+ public:
+  explicit Replay(ProjectRead& read) : read_(read) {}
+
+  /// False where the line cannot be read, or does not fit the project.
+  bool take(std::string_view line, const std::string& name) {
+    if (line == kTakenUp) {
+      take_up_parts();
+      return true;
+    }
+    const bool is_part = line.starts_with(kPart), is_whole = line.starts_with(kWhole);
+    line.remove_prefix(is_part ? kPart.size() : is_whole ? kWhole.size() : 0);
+    auto edit = read_edit(line, name);
+    if (!edit) return false;
+    if (is_part) {
+      parts_.push_back(std::move(*edit));
+      return true;
+    }
+    if (is_whole) parts_.clear();
+    if (edit->empty()) return true;
+    if (!apply_edit(read_.project, *edit)) return false;
+    ++read_.recovered;
+    return true;
+  }
+
+  /// Parts count together as one edit, those of cells that were deleted meanwhile do not.
+  void take_up_parts() {
+    bool fits = false;
+    for (const ProjectEdit& part : std::exchange(parts_, {}))
+      if (apply_edit(read_.project, part)) fits = true;
+    if (fits) ++read_.recovered;
+  }
+
+ private:
+  ProjectRead& read_;
+  std::vector<ProjectEdit> parts_;  // of a recording whose end has not come
+};
+
 /// Applies the lines of a journal until one is damaged, as the last one of a program that was killed may be.
 void replay(std::string_view lines, const std::string& name, ProjectRead& read) {
-  std::size_t number = 1;
-  while (!lines.empty()) {
-    ++number;
+  Replay work(read);
+  for (std::size_t number = 2; !lines.empty(); ++number) {
     const std::size_t end = lines.find('\n');
-    const bool is_whole = end != std::string_view::npos;
-    const auto edit = read_edit(lines.substr(0, end), fmt::format("{}, line {}", name, number));
-    const auto done = edit && is_whole ? apply_edit(read.project, *edit) : base::Result<ProjectEdit>();
-    if (!edit || !is_whole || !done) {
+    if (end == std::string_view::npos ||
+        !work.take(lines.substr(0, end), fmt::format("{}, line {}", name, number))) {
       read.note = fmt::format("{}: line {} is damaged; what comes after it is lost.", name, number);
-      return;
+      break;
     }
-    ++read.recovered;
     read.journal_length += end + 1;
     lines.remove_prefix(end + 1);
   }
+  work.take_up_parts();
 }
 
 }  // namespace
@@ -130,8 +173,8 @@ base::Result<ProjectJournal> ProjectJournal::open(const std::filesystem::path& f
   }
   if (::ftruncate(opened->descriptor, off_t(length)) != 0) return base::fail(system_error_of(opened->path));
   ProjectJournal journal(std::move(opened));
-  if (length > 0) return journal;
-  if (auto written = journal.write(header_of(*text)); !written) return tl::unexpected(written.error());
+  const std::string begun = length > 0 ? std::string(kTakenUp) + "\n" : header_of(*text);
+  if (auto written = journal.write(begun); !written) return tl::unexpected(written.error());
   return journal;
 }
 
@@ -152,8 +195,9 @@ base::Result<void> ProjectJournal::write(std::string_view bytes) {
   return {};
 }
 
-base::Result<void> ProjectJournal::add(const ProjectEdit& edit) {
-  if (auto written = write(edit_text(edit) + "\n"); !written) return written;
+base::Result<void> ProjectJournal::add(const ProjectEdit& edit, Line line) {
+  const std::string_view begun = line == Line::Part ? kPart : line == Line::Whole ? kWhole : "";
+  if (auto written = write(fmt::format("{}{}\n", begun, edit_text(edit))); !written) return written;
   if (::fdatasync(file_->descriptor) != 0 && errno != EINVAL) return base::fail(system_error_of(file_->path));
   return {};
 }

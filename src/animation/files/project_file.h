@@ -39,6 +39,12 @@ std::filesystem::path journal_of(const std::filesystem::path& file);
 /// the hash of the text that they start from.
 class ProjectJournal {
  public:
+  enum class Line : std::uint8_t {
+    Edit,
+    Part,   ///< of a recording that goes on: it counts where the program ends before the whole is there
+    Whole,  ///< a recording that has ended: it takes the place of its parts
+  };
+
   /// Begins the journal of a file, as it lies on the disk, that was read or written just now: goes on after
   /// `length` bytes of the one that is there (ProjectRead::journal_length), or begins a new one; one of
   /// another version of the file is moved aside, to a name that ends with ".old". Fails with the path, and
@@ -53,7 +59,7 @@ class ProjectJournal {
   ~ProjectJournal();
 
   /// Adds a line, and waits until the disk has it. Fails with the path and the system's message.
-  base::Result<void> add(const ProjectEdit& edit);
+  base::Result<void> add(const ProjectEdit& edit, Line line = Line::Edit);
   /// Takes the journal away: the project is saved, or given up.
   void remove();
 

@@ -13,6 +13,8 @@
 #include "files/pictures/picture_bytes.h"
 #include "io/file_bytes.h"
 #include "io/file_ending.h"
+#include "io/gzip_bytes.h"
+#include "io/jpeg_markers.h"
 
 namespace icome::animation {
 namespace {
@@ -53,7 +55,7 @@ Result<PictureContent> pixels_of_bytes(std::string_view bytes, const std::string
     word = premultiplied(from[2], from[1], from[0], 255);
     from += 3;
   }
-  return with_fit_sides(std::move(pixels), name);
+  return with_fit_sides(upright(std::move(pixels), io::exif_orientation(bytes)), name);
 }
 
 Result<PictureContent> svg_of_text(std::string text, const std::string& name, double seconds) {
@@ -125,6 +127,8 @@ Result<PictureContent> read_picture(const PicturePlace& place, const std::string
   auto bytes = io::read_bytes(place.file, kLargestPictureFile);
   if (!bytes) return tl::unexpected(bytes.error());
   if (cutout::is_picture(*bytes)) return pixels_of_bytes(*bytes, name);
+  if (io::is_gzip(*bytes)) bytes = io::unpack_gzip(*bytes, drawing::kLargestSvg + 1, name);  // .svgz
+  if (!bytes) return tl::unexpected(bytes.error());
   if (!may_be_svg(*bytes))
     return fail(fmt::format("{}: it is no picture of a kind that is read: PNG, JPEG, SVG or .icome", name));
   if (bytes->size() > drawing::kLargestSvg)

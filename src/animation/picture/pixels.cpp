@@ -76,6 +76,24 @@ charts::Image image_of(const Pixels& pixels) {
   return image;
 }
 
+Pixels upright(Pixels pixels, int orientation) {
+  if (orientation < 2 || orientation > 8) return pixels;
+  // Each of the eight is a picture that was mirrored along its rows, along its columns and at its diagonal,
+  // or not.
+  const bool lies = orientation >= 5;
+  const bool from_right = orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
+  const bool from_below = orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
+  Pixels turned(lies ? pixels.height : pixels.width, lies ? pixels.width : pixels.height);
+  std::uint32_t* to = turned.words.data();
+  for (int y = 0; y < turned.height; ++y)
+    for (int x = 0; x < turned.width; ++x) {
+      const int column = lies ? y : x, row = lies ? x : y;
+      *to++ = pixels.row(from_below ? pixels.height - 1 - row
+                                    : row)[from_right ? pixels.width - 1 - column : column];
+    }
+  return turned;
+}
+
 Pixels shrunk(const Pixels& pixels, int width, int height) {
   Pixels smaller(width, height);
   const std::vector<AreaPart> columns = area_parts(pixels.width, width),

@@ -52,6 +52,9 @@ constexpr std::uint32_t premultiplied(std::uint32_t red, std::uint32_t green, st
 Pixels pixels_of(const charts::Image& image);
 charts::Image image_of(const Pixels& pixels);
 
+/// A picture as it was seen when it was taken, by its io::exif_orientation(), 1 to 8.
+Pixels upright(Pixels pixels, int orientation);
+
 /// The picture made smaller by means over areas, which all pixels take part in. Sides from 1 to its own.
 Pixels shrunk(const Pixels& pixels, int width, int height);
 

@@ -16,7 +16,7 @@ namespace {
 
 bool is_picture(const std::filesystem::path& file) {
   const io::FileEnding ending = io::ending_of(file);
-  constexpr std::array<std::string_view, 4> kEndings = {".png", ".jpg", ".jpeg", ".svg"};
+  constexpr std::array<std::string_view, 5> kEndings = {".png", ".jpg", ".jpeg", ".svg", ".svgz"};
   return !ending.packed && std::ranges::find(kEndings, ending.type) != kEndings.end();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace icome::animation {
@@ -103,14 +104,29 @@ void Recording::take(int frame, const CellStates& moved) {
   for (const auto& [id, state] : moved) {
     const Layer* layer = project_.layer_of(id);
     if (layer_ && (layer == nullptr || layer->id != *layer_)) continue;
-    if (may_change(project_, id)) cells_[id][frame] = state;
+    if (may_change(project_, id)) cells_[id][frame] = since_part_[id][frame] = state;
   }
 }
 
-ProjectEdit Recording::finish(double tolerance) const {
+ProjectEdit Recording::finish(double tolerance) const { return edit_of(project_, cells_, tolerance); }
+
+ProjectEdit Recording::next_part() {
+  StatesByCell taken = std::exchange(since_part_, {});
+  for (auto& [id, states] : taken) {
+    // The way from the last state before belongs to this part.
+    const auto last = last_of_parts_.find(id);
+    if (last != last_of_parts_.end() && last->second.first < states.begin()->first)
+      states.insert(last->second);
+    last_of_parts_.insert_or_assign(id, *states.rbegin());
+  }
+  ProjectEdit part = edit_of(with_parts_, taken, 0);
+  return apply_edit(with_parts_, part) ? part : ProjectEdit();
+}
+
+ProjectEdit Recording::edit_of(const Project& project, const StatesByCell& cells, double tolerance) {
   ProjectEdit edit;
-  for (const auto& [id, states] : cells_) {
-    const Cell& cell = *project_.find(id);
+  for (const auto& [id, states] : cells) {
+    const Cell& cell = *project.find(id);
     for (const Channel channel : kRecorded) {
       const Track track = track_of(states, channel);
       const bool stays = std::ranges::all_of(

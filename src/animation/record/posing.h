@@ -17,7 +17,8 @@ ProjectEdit keyed_pose(const Project& project, int frame, const CellStates& stat
 /// taken down, or all where it is none; locked layers are left alone.
 class Recording {
  public:
-  Recording(Project project, std::optional<LayerId> layer) : project_(std::move(project)), layer_(layer) {}
+  Recording(Project project, std::optional<LayerId> layer)
+      : project_(std::move(project)), layer_(layer), with_parts_(project_) {}
 
   /// Cells as they were moved at a frame; of several at one frame the last counts. Frames that were passed
   /// over get keys between.
@@ -29,10 +30,22 @@ class Recording {
   /// value_tolerance() of the way between others are left out; with a tolerance of 0 px none are.
   ProjectEdit finish(double tolerance) const;
 
+  /// The edit of what was taken down since the part before, empty where nothing was. Parts that are applied
+  /// one after the other move cells as finish(0) does, so that a journal can have a recording that goes on.
+  ProjectEdit next_part();
+
  private:
+  using StatesByFrame = std::map<int, CellState>;
+  using StatesByCell = std::map<CellId, StatesByFrame>;
+
+  static ProjectEdit edit_of(const Project& project, const StatesByCell& cells, double tolerance);
+
   Project project_;  // as it was when the recording began
   std::optional<LayerId> layer_;
-  std::map<CellId, std::map<int, CellState>> cells_;
+  StatesByCell cells_;
+  Project with_parts_;       // the project with the parts so far
+  StatesByCell since_part_;  // taken down since the last one
+  std::map<CellId, std::pair<int, CellState>> last_of_parts_;
 };
 
 /// The change of a channel's value by which the rim of a cell moves by so many px, where it is kRimDistance

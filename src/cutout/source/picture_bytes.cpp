@@ -6,6 +6,8 @@
 
 #include <memory>
 
+#include "io/jpeg_markers.h"
+
 namespace icome::cutout {
 namespace {
 
@@ -41,6 +43,13 @@ base::Result<void> read_png(std::string_view bytes, const std::string& name, png
   return {};
 }
 
+/// Blue, green and red of cyan, magenta, yellow and black, each as what it leaves of white.
+void take_left_colours(const std::vector<std::uint8_t>& left, std::vector<std::uint8_t>& bgr) {
+  for (std::size_t i = 0; 4 * i < left.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      bgr[3 * i + c] = std::uint8_t((left[4 * i + 2 - c] * left[4 * i + 3] + 127) / 255);
+}
+
 base::Result<Frame> read_jpeg(std::string_view bytes, const std::string& name) {
   const OwnedJpeg jpeg(tjInitDecompress(), tjDestroy);
   if (!jpeg) return base::fail("there is not enough memory to read a JPEG file");
@@ -57,9 +66,14 @@ base::Result<Frame> read_jpeg(std::string_view bytes, const std::string& name) {
   if (const auto able = check_sides(frame.width, frame.height, name); !able)
     return tl::unexpected(able.error());
   frame.bgr.resize(3 * std::size_t(frame.width) * std::size_t(frame.height));
-  if (tjDecompress2(jpeg.get(), data, bytes.size(), frame.bgr.data(), frame.width, 0, frame.height, TJPF_BGR,
-                    TJFLAG_LIMITSCANS) != 0)
+  const bool has_black = colours == TJCS_CMYK || colours == TJCS_YCCK;
+  std::vector<std::uint8_t> printed(has_black ? frame.bgr.size() / 3 * 4 : 0);
+  if (tjDecompress2(jpeg.get(), data, bytes.size(), has_black ? printed.data() : frame.bgr.data(),
+                    frame.width, 0, frame.height, has_black ? TJPF_CMYK : TJPF_BGR, TJFLAG_LIMITSCANS) != 0)
     return failed("the JPEG file is damaged or cut off");
+  if (has_black && !io::has_adobe_marker(bytes))
+    for (std::uint8_t& value : printed) value = std::uint8_t(255 - value);
+  take_left_colours(printed, frame.bgr);
   return frame;
 }
 

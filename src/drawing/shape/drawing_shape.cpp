@@ -22,6 +22,15 @@ std::string complaint(const DrawingBody& body) {
   return complaint(body.heights);
 }
 
+/// A colour as it is seen on paper through which one sees so much of it. Colours are mixed as in pictures of
+/// drawings.
+Colour on_paper(const Colour& colour, double opacity) {
+  Colour seen;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    seen[i] = float(opacity * double(colour[i]) + (1.0 - opacity) * double(kPaperColour[i]));
+  return seen;
+}
+
 /// Puts parts in colours of their own into one mesh.
 class PartsMesh {
  public:
@@ -128,8 +137,10 @@ base::Result<std::shared_ptr<const world::MeshGeometry>> DrawingShape::made_tria
   PartsMesh parts;
   if (body_.sheet > 0.0) parts.add_box(sheet_box(drawing_.size, body_.sheet));
   for (const Ridge& ridge : *ridges) {
-    if (ridge.stroke->fill) parts.add(ridge.areas->fill, ridge.fill_height, *ridge.stroke->fill);
-    parts.add(ridge.areas->line, ridge.height, ridge.stroke->colour);
+    const double opacity = body_.sheet > 0.0 ? ridge.stroke->opacity : 1.0;
+    if (ridge.stroke->fill)
+      parts.add(ridge.areas->fill, ridge.fill_height, on_paper(*ridge.stroke->fill, opacity));
+    parts.add(ridge.areas->line, ridge.height, on_paper(ridge.stroke->colour, opacity));
     if (parts.triangles() > kMostTriangles)
       return base::fail(fmt::format("a drawing of more than {} triangles", kMostTriangles));
   }

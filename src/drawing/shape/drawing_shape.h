@@ -19,8 +19,9 @@ struct DrawingBody {
 };
 
 /// A drawing as a kind of shape: a sheet of paper in the plane z = 0, its middle at the origin and y up, on
-/// which lines rise to +z as ridges, in their colours (opacity is not shown). It is changed by edits of its
-/// drawing, as bytes (edit_bytes), so that a stroke more is all that is kept and sent.
+/// which lines rise to +z as ridges, in their colours. Through one that is not opaque the sheet is seen, but
+/// no other line; without a sheet all are opaque. It is changed by edits of its drawing, as bytes
+/// (edit_bytes), so that a stroke more is all that is kept and sent.
 class DrawingShape final : public world::Geometry {
  public:
   static constexpr std::string_view kKind = "drawing";

@@ -56,7 +56,7 @@ void DrawingActions::draw_on(ObjectId id) {
   const GeometryId geometry = object.geometry;
   QPointer<SketchWindow>& window = windows_[geometry];
   if (!window) {
-    window = new SketchWindow(&window_);
+    window = new SketchWindow({}, &window_);
     window->setAttribute(Qt::WA_DeleteOnClose);
     const std::string action = action_name("Draw on", session_.world(), std::vector{id});
     window->document().open(

@@ -30,6 +30,7 @@
 #include "ui/panels/object_look.h"
 #include "ui/window/connect_display.h"
 #include "ui/window/shortcut_sheet.h"
+#include "ui/window/window_settings.h"
 
 namespace icome::ui {
 namespace {
@@ -46,13 +47,6 @@ constexpr const char* kNoCutoutDisplayWays =
     "`icome animate` changes an animation without one, and exports it.";
 constexpr const char* kHint =
     "Drag a cell to move it; the handles turn and scale it. Space: next pose. F1: all keys.";
-
-std::unique_ptr<QSettings> settings_in(const QString& file) {
-  auto settings = file.isEmpty() ? std::make_unique<QSettings>("icome", "icome")
-                                 : std::make_unique<QSettings>(file, QSettings::IniFormat);
-  settings->beginGroup("animation");
-  return settings;
-}
 
 /// The line edit takes the keys of undo and redo only for what is typed there and not yet entered: after
 /// that they are the animation's.
@@ -99,7 +93,7 @@ ShortcutSheet::Part time_part() {
 
 CutoutWindow::CutoutWindow(const QString& settings, QWidget* parent)
     : QMainWindow(parent),
-      settings_(settings_in(settings)),
+      settings_(window_settings(settings, "animation")),
       recent_(*settings_),
       files_(document_, *this),
       transport_(document_),

@@ -4,12 +4,7 @@
 #include <utility>
 
 namespace icome::ui {
-namespace {
-
-constexpr double kWidestTip = 0.1;  // m
-constexpr double kLeastEraser = 0.0001;
-
-}  // namespace
+namespace {}  // namespace
 
 PenPanel::PenPanel(SketchDocument& document, SketchLook& look, QWidget* parent)
     : QWidget(parent), document_(document), look_(look), pen_(new PanelSection("Pen", this)) {
@@ -98,6 +93,7 @@ void PenPanel::add_line_rows() {
   auto* ends = new QuietComboBox(body);
   ends->setAccessibleName("Ends");
   ends->addItems({"Round", "Flat"});
+  ends->setCurrentIndex(look_.ends == drawing::CurveEnds::Flat ? 1 : 0);
   connect(ends, &QComboBox::activated, this, [this](int row) {
     look_.ends = row == 1 ? drawing::CurveEnds::Flat : drawing::CurveEnds::Round;
     give_selected(command("ends", {{"ends", row == 1 ? "flat" : "round"}}));

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kTouchWithin = 5.0;  // pixels beside a line that touches it
 constexpr double kMmInAMetre = 1000.0;
-constexpr double kWayStep = 1.5;  // pixels between places of a way that are kept
+constexpr double kWayStep = 1.5;           // pixels between places of a way that are kept
+constexpr double kAttractedWithin = 10.0;  // pixels beside a line of the grid
 
 class SelectingTool final : public CanvasTool {
  public:
@@ -29,6 +30,7 @@ class SelectingTool final : public CanvasTool {
     return SelectionFrame::around(document().shown(), document().selection(), view());
   }
   void choose(bool add);
+  Eigen::Affine2d dragged() const;
   void paint_way(QPainter& painter) const;
   drawing::Vector2 force() const;
 
@@ -50,12 +52,17 @@ void SelectingTool::press(const PenInput& input) {
 void SelectingTool::drag(const PenInput& input) {
   now_ = input;
   if (grip_) {
-    const Eigen::Affine2d to = SelectionFrame::moved(*grip_, input.place);
-    document().try_out(sketch::transformed(document().drawing(), document().selection(), to));
+    document().try_out(sketch::transformed(document().drawing(), document().selection(), dragged()));
   } else if (!way_.empty() && (input.place - way_.back()).norm() > view().on_paper(kWayStep)) {
     way_.push_back(input.place);
   }
   redraw_all();
+}
+
+/// The transform of what is selected, as the grip is now.
+Eigen::Affine2d SelectingTool::dragged() const {
+  const Eigen::Affine2d to = SelectionFrame::moved(*grip_, now_.place);
+  return look().attract ? SelectionFrame::attracted(*grip_, to, view().on_paper(kAttractedWithin)) : to;
 }
 
 void SelectingTool::release(const PenInput& input) {
@@ -86,14 +93,16 @@ void SelectingTool::give_up() {
   redraw_all();
 }
 
-/// The force that resists what is dragged (thesis 4.15 and its analogues).
+/// The force that resists what is dragged (thesis 4.15 and its analogues), and that of what attracts it.
 drawing::Vector2 SelectingTool::force() const {
   using Part = SelectionFrame::Part;
   const auto holding = sketch::holding_points(document().drawing(), document().selection());
   const Eigen::Affine2d to = SelectionFrame::moved(*grip_, now_.place);
+  // The pen where the selection is attracted to.
+  const drawing::Vector2 drawn = dragged() * to.inverse() * now_.place;
+  drawing::Vector2 sum = sketch::connect_force(now_.place, drawn, view().on_paper(kAttractedWithin));
   const Eigen::Matrix2d linear = to.linear();
-  if (grip_->part == Part::Inside) return sketch::move_force(to.translation(), holding.size());
-  drawing::Vector2 sum = drawing::Vector2::Zero();
+  if (grip_->part == Part::Inside) return sum + sketch::move_force(to.translation(), holding.size());
   const double angle = std::atan2(linear(1, 0), linear(0, 0));
   if (grip_->part != Part::Corner) sum += sketch::turn_force(now_.place, grip_->about, angle, holding);
   const double scaling = std::sqrt(linear.determinant());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sketch/tools/attraction.h"
 #include "ui/look/theme.h"
 #include "ui/sketch/canvas_tool.h"
 
@@ -15,6 +16,9 @@ constexpr double kHandle = 4.0;       // half a corner's side, pixels
 constexpr double kHandleReach = 9.0;  // pixels
 constexpr double kLeastScaling = 0.01;
 constexpr std::size_t kMostDots = 3000;
+constexpr double kGridStep = 0.005;       // m
+constexpr double kAngleStep = 0.2617994;  // rad, 15 degrees
+constexpr double kAngleWithin = 0.2 * kAngleStep;
 
 constexpr drawing::Bounds2::CornerType kCorners[] = {drawing::Bounds2::BottomLeft,
                                                      drawing::Bounds2::BottomRight,
@@ -28,7 +32,8 @@ Eigen::Affine2d about_place(const drawing::Vector2& place, const Eigen::Matrix2d
 
 }  // namespace
 
-SelectionFrame::SelectionFrame(const drawing::Bounds2& box, const PaperView& view) : box_(box), view_(view) {
+SelectionFrame::SelectionFrame(const drawing::Bounds2& box, const PaperView& view)
+    : box_(box), corner_(box.min()), view_(view) {
   const drawing::Vector2 beside = drawing::Vector2::Constant(view.on_paper(kBeside));
   box_ = {box.min() - beside, box.max() + beside};
 }
@@ -49,14 +54,14 @@ QPointF SelectionFrame::knob() const {
 std::optional<SelectionFrame::Grip> SelectionFrame::grip(QPointF at, bool control) const {
   const drawing::Vector2 place = view_.to_paper(at);
   const drawing::Vector2 middle = box_.center();
-  if (distance(at, knob()) < kHandleReach) return Grip{Part::Knob, place, middle};
+  if (distance(at, knob()) < kHandleReach) return Grip{Part::Knob, place, middle, corner_};
   for (const auto corner : kCorners) {
     const drawing::Vector2 there = box_.corner(corner);
     if (distance(at, view_.to_screen(there)) < kHandleReach)
-      return Grip{Part::Corner, place, 2.0 * middle - there};
+      return Grip{Part::Corner, place, 2.0 * middle - there, corner_};
   }
   if (!box_.contains(place)) return std::nullopt;
-  return Grip{control ? Part::Similar : Part::Inside, place, middle};
+  return Grip{control ? Part::Similar : Part::Inside, place, middle, corner_};
 }
 
 Eigen::Affine2d SelectionFrame::moved(const Grip& grip, const drawing::Vector2& to) {
@@ -70,6 +75,20 @@ Eigen::Affine2d SelectionFrame::moved(const Grip& grip, const drawing::Vector2& 
   if (grip.part == Part::Knob) return about_place(grip.about, turn);
   if (grip.part == Part::Corner) return about_place(grip.about, scaling * Eigen::Matrix2d::Identity());
   return about_place(grip.about, scaling * turn);
+}
+
+Eigen::Affine2d SelectionFrame::attracted(const Grip& grip, const Eigen::Affine2d& moved, double within) {
+  if (grip.part == Part::Inside) {
+    const double reach = std::min(within, 0.5 * kGridStep);
+    const drawing::Vector2 there = moved * grip.corner;
+    const drawing::Vector2 drawn(sketch::attracted(there.x(), kGridStep, reach),
+                                 sketch::attracted(there.y(), kGridStep, reach));
+    return Eigen::Affine2d(Eigen::Translation2d(drawn - there)) * moved;
+  }
+  if (grip.part != Part::Knob) return moved;
+  const double angle = Eigen::Rotation2Dd(moved.linear()).angle();
+  const double drawn = sketch::attracted(angle, kAngleStep, kAngleWithin);
+  return about_place(grip.about, Eigen::Rotation2Dd(drawn).toRotationMatrix());
 }
 
 void SelectionFrame::paint(QPainter& painter) const {

@@ -15,8 +15,9 @@ class SelectionFrame {
 
   struct Grip {
     Part part;
-    drawing::Vector2 from;   // where it was taken, m
-    drawing::Vector2 about;  // what stays in place
+    drawing::Vector2 from;    // where it was taken, m
+    drawing::Vector2 about;   // what stays in place
+    drawing::Vector2 corner;  // the upper left one of the chosen points, m
   };
 
   /// Around the chosen points; none where nothing is chosen.
@@ -27,6 +28,10 @@ class SelectionFrame {
   std::optional<Grip> grip(QPointF at, bool control) const;
   /// The transform of the chosen points when it is dragged to a place (m).
   static Eigen::Affine2d moved(const Grip& grip, const drawing::Vector2& to);
+  /// Such a transform by which the corner is drawn to a grid of 5 mm, where the frame is moved, or the angle
+  /// to a multiple of 15 degrees, where it is turned; `within`: how far a line of the grid draws, m, of which
+  /// it takes a half of its step at most.
+  static Eigen::Affine2d attracted(const Grip& grip, const Eigen::Affine2d& moved, double within);
 
   void paint(QPainter& painter) const;
 
@@ -35,6 +40,7 @@ class SelectionFrame {
   QPointF knob() const;
 
   drawing::Bounds2 box_;  // m
+  drawing::Vector2 corner_;
   PaperView view_;
 };
 

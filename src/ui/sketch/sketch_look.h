@@ -5,6 +5,10 @@
 
 namespace icome::ui {
 
+// What panels take, m.
+inline constexpr double kWidestTip = 0.1;
+inline constexpr double kLeastEraser = 0.0001;
+
 /// A person's choices in the window: the look of the pen's lines, and what is shown beside the drawing.
 struct SketchLook {
   drawing::Colour colour = {0.11F, 0.13F, 0.16F};
@@ -18,6 +22,7 @@ struct SketchLook {
   bool constant_width = false;   // for a mouse; else by its speed
   bool predict = true;           // the running stroke a frame ahead, on the display only
   bool onion = false;            // what was before the last change, faintly
+  bool attract = false;          // what is dragged, to a grid and to angles
   bool force = false;            // an arrow for the force that resists the tool
 };
 

@@ -19,12 +19,17 @@
 #include "ui/look/theme.h"
 #include "ui/panels/column_area.h"
 #include "ui/panels/object_look.h"
+#include "ui/sketch/kept_look.h"
 #include "ui/sketch/run_sketch.h"
 #include "ui/window/connect_display.h"
 #include "ui/window/shortcut_sheet.h"
+#include "ui/window/window_settings.h"
 
 namespace icome::ui {
 namespace {
+
+constexpr int kSketchLayout =
+    1;  // counts up when docks and bars change, so that old layouts are not restored
 
 struct SketchToolEntry {
   SketchToolKind tool;
@@ -79,8 +84,10 @@ std::size_t segments_in(const drawing::Drawing& drawing) {
 
 }  // namespace
 
-SketchWindow::SketchWindow(QWidget* parent) : QMainWindow(parent), files_(document_, *this) {
+SketchWindow::SketchWindow(const QString& settings, QWidget* parent)
+    : QMainWindow(parent), settings_(window_settings(settings, "drawing")), files_(document_, *this) {
   setObjectName("sketch");
+  take_kept_look(*settings_, look_);
   make_center();
   make_docks();
   make_status();
@@ -105,9 +112,17 @@ SketchWindow::SketchWindow(QWidget* parent) : QMainWindow(parent), files_(docume
     remark.empty() ? statusBar()->clearMessage() : statusBar()->showMessage(one_line(remark), kRemarkStays);
   });
   resize(1200, 800);
+  restoreGeometry(settings_->value("window/geometry").toByteArray());
+  restoreState(settings_->value("window/state").toByteArray(), kSketchLayout);
   show_document();
   show_hint();
   canvas_->setFocus();
+}
+
+SketchWindow::~SketchWindow() {
+  keep_look(look_, *settings_);
+  settings_->setValue("window/geometry", saveGeometry());
+  settings_->setValue("window/state", saveState(kSketchLayout));
 }
 
 void SketchWindow::make_center() {
@@ -233,6 +248,10 @@ void SketchWindow::make_view_menu(QMenu& menu) {
              look_.predict);
   add_switch(menu, "view.onion", "What &Was Before", "Shows faintly what the last change took away",
              look_.onion);
+  add_switch(menu, "view.attract", "&Attract to Grid and Angle",
+             "Draws what is moved to a grid of 5 mm, and what is turned to steps of 15\u00b0; dragging on "
+             "resists it",
+             look_.attract);
   add_switch(menu, "view.force", "F&orce", "Shows as an arrow the force that resists what is dragged",
              look_.force);
   menu.addSeparator();

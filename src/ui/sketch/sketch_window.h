@@ -1,6 +1,8 @@
 #pragma once
 #include <QMainWindow>
+#include <QSettings>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "ui/sketch/layer_panel.h"
@@ -18,7 +20,9 @@ namespace icome::ui {
 /// The window of a drawing: the paper in the middle, messages above it, pen and layers beside it.
 class SketchWindow final : public QMainWindow {
  public:
-  explicit SketchWindow(QWidget* parent = nullptr);
+  /// `settings` is the file of a person's settings; empty: those of ICOME.
+  explicit SketchWindow(const QString& settings = {}, QWidget* parent = nullptr);
+  ~SketchWindow() override;  // keeps them
 
   /// Opens a drawing or a recording of a pen; what goes wrong stands above the paper.
   void open(const std::filesystem::path& file) { files_.open(file); }
@@ -48,6 +52,7 @@ class SketchWindow final : public QMainWindow {
   void show_hint();
   void show_shortcuts();
 
+  std::unique_ptr<QSettings> settings_;
   SketchDocument document_;
   SketchLook look_;
   SketchFiles files_;

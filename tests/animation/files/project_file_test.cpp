@@ -74,6 +74,49 @@ TEST_F(ProjectFileTest, GoesOnWithAJournalAfterItsWholePart) {
   EXPECT_TRUE(again->project.smooth_hands);
 }
 
+TEST_F(ProjectFileTest, PartsOfARecordingCountUntilTheWholeIsThere) {
+  using Line = ProjectJournal::Line;
+  Project project;
+  ASSERT_TRUE(write_project_file(project, file_));
+  std::size_t with_parts = 0;
+  {
+    auto journal = ProjectJournal::open(file_);
+    ASSERT_TRUE(journal->add({ChangeStage{{200, 100}}}, Line::Part));
+    ASSERT_TRUE(journal->add({SmoothHands{true}}, Line::Part));
+    with_parts = journal_text().size();
+    ASSERT_TRUE(journal->add({ChangeStage{{300, 100}}}, Line::Whole));
+  }
+  const std::string text = journal_text();
+  for (std::size_t length = with_parts; length <= text.size(); ++length) {
+    const bool is_whole = length == text.size();
+    write_journal(text.substr(0, length));
+    const auto read = read_project_file(file_);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->recovered, 1U) << length;
+    EXPECT_EQ(read->project.stage.width, is_whole ? 300 : 200) << length;
+    EXPECT_EQ(read->project.smooth_hands, !is_whole) << length;
+  }
+}
+
+/// What comes after parts that were taken up once comes after them ever after.
+TEST_F(ProjectFileTest, GoesOnAfterPartsOfARecordingThatWasCutOff) {
+  using Line = ProjectJournal::Line;
+  ASSERT_TRUE(write_project_file({}, file_));
+  ASSERT_TRUE(ProjectJournal::open(file_)->add({ChangeStage{{200, 100}}}, Line::Part));
+  const auto read = read_project_file(file_);
+  {
+    auto journal = ProjectJournal::open(file_, read->journal_length);
+    ASSERT_TRUE(journal->add({ChangeStage{{300, 100}}}));
+    ASSERT_TRUE(journal->add({SmoothHands{true}}, Line::Part));
+    ASSERT_TRUE(journal->add({}, Line::Whole));
+  }
+  const auto again = read_project_file(file_);
+  EXPECT_EQ(again->note, "");
+  EXPECT_EQ(again->recovered, 2U);
+  EXPECT_EQ(again->project.stage.width, 300);
+  EXPECT_FALSE(again->project.smooth_hands) << "nothing came of that recording";
+}
+
 TEST_F(ProjectFileTest, LeavesAJournalOfAnotherVersionAlone) {
   ASSERT_TRUE(write_project_file({}, file_));
   ASSERT_TRUE(ProjectJournal::open(file_)->add({SmoothHands{true}}));

@@ -50,6 +50,51 @@ TEST_F(CellPicturesTest, ReadsJpeg) {
   EXPECT_EQ((*raster)->pixels.words[20], 0xff787878U);
 }
 
+/// Exif 2.3, 4.6.4 names the sides on which a person sees the first row and the first column.
+TEST_F(CellPicturesTest, HoldsJpegAsTheCameraWasHeld) {
+  struct Held {
+    char row, column;  // top, bottom, left or right
+  };
+  constexpr std::array<Held, 8> kHeld = {
+      {{'t', 'l'}, {'t', 'r'}, {'b', 'r'}, {'b', 'l'}, {'l', 't'}, {'r', 't'}, {'r', 'b'}, {'l', 'b'}}};
+  // The first 16 pixels of the first 16 rows are red, the last ones green, all others grey.
+  std::vector<std::uint8_t> bgr(std::size_t(3) * 64 * 48, 120);
+  for (std::size_t i = 0; i < bgr.size(); i += 3) {
+    const std::size_t x = i / 3 % 64, y = i / 3 / 64;
+    if (y >= 16 || (x >= 16 && x < 48)) continue;
+    bgr[i] = 0, bgr[i + 1] = x < 16 ? 0 : 255, bgr[i + 2] = x < 16 ? 255 : 0;
+  }
+  const std::string plain = cutout::encode_jpeg({bgr.data(), 64, 48, 192}, 95).value();
+  for (int n = 1; n <= 8; ++n) {
+    const std::string exif = std::string(
+                                 "\xff\xe1\0\x22"
+                                 "Exif\0\0MM\0\x2a\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0",
+                                 29) +
+                             char(n) + std::string(6, '\0');
+    const std::string name = fmt::format("held{}.jpg", n);
+    folder_.write(name, plain.substr(0, 2) + exif + plain.substr(2));
+    const auto [row, column] = kHeld[std::size_t(n - 1)];
+    const bool lies = row == 'l' || row == 'r';
+    const auto raster = pictures_.raster(name, 1);
+    ASSERT_TRUE(raster) << raster.error().message;
+    ASSERT_EQ((*raster)->size, (lies ? PictureSize{48, 64} : PictureSize{64, 48})) << n;
+    const auto word = [&](char at_row, char at_column) {
+      int x = 8, y = 8;
+      for (const char side : {at_row, at_column}) {
+        if (side == 'r') x = (*raster)->size.width - 8;
+        if (side == 'b') y = (*raster)->size.height - 8;
+      }
+      return (*raster)->pixels.row(y)[x];
+    };
+    const char opposite = column == 'l' ? 'r' : column == 'r' ? 'l' : column == 't' ? 'b' : 't';
+    const std::uint32_t red = word(row, column), green = word(row, opposite);
+    EXPECT_GT(red >> 16 & 0xff, 200U) << n;
+    EXPECT_LT(red >> 8 & 0xff, 50U) << n;
+    EXPECT_GT(green >> 8 & 0xff, 200U) << n;
+    EXPECT_LT(green >> 16 & 0xff, 50U) << n;
+  }
+}
+
 TEST_F(CellPicturesTest, GivesTheNextLargerOfItsSizes) {
   folder_.write_png("a.png", plain_pixels(200, 100, kHalfRed));
   const auto width = [&](double scale) { return pictures_.raster("a.png", scale).value()->pixels.width; };

@@ -96,6 +96,38 @@ TEST(Recording, LeavesWhatWasBeforeAndAfterAsItWas) {
   }
 }
 
+/// Cells that are held now and then, on tracks that may have keys already.
+TEST(Recording, PartsMoveCellsAsTheWholeDoes) {
+  base::Random random(11);
+  for (int round = 0; round < 200; ++round) {
+    Project project = two_layers();
+    if (random.index(2) == 0) {
+      ASSERT_TRUE(apply_edit(project, {ChangeKeys{kBoat, Channel::X, 0, 90, {{0, 0}, {40, 70}, {90, 200}}}}));
+    }
+    Project in_parts = project;
+    Recording recording(project, std::nullopt);
+    std::size_t parts = 0;
+    for (int frame = int(random.index(30)); frame < 80; frame += 1 + int(random.index(3))) {
+      if (random.index(3) > 0) recording.take(frame, {{kBoat, at(random.uniform(-9, 9), 4)}});
+      if (random.index(4) == 0) recording.take(frame, {{kSea, at(0, random.uniform(-9, 9))}});
+      if (random.index(10) > 0) continue;
+      const ProjectEdit part = recording.next_part();
+      parts += part.empty() ? 0 : 1;
+      ASSERT_TRUE(apply_edit(in_parts, part));
+      EXPECT_TRUE(recording.next_part().empty()) << "nothing was taken down since";
+    }
+    ASSERT_TRUE(apply_edit(in_parts, recording.next_part()));
+    ASSERT_TRUE(apply_edit(project, recording.finish(0)));
+    for (int frame = 0; frame < 100; ++frame)
+      for (const CellId cell : {kBoat, kSea}) {
+        const CellState part = state_at(*in_parts.find(cell), frame),
+                        whole = state_at(*project.find(cell), frame);
+        ASSERT_LE((part.place - whole.place).norm(), 1e-12) << "round " << round << ", frame " << frame;
+      }
+    EXPECT_LE(parts, 20U);
+  }
+}
+
 TEST(Thinned, StaysWithinItsToleranceAtEveryFrame) {
   base::Random random(2);
   for (int round = 0; round < 300; ++round) {

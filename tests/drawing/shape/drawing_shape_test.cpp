@@ -69,6 +69,23 @@ bool is_closed(const geometry::TriangleMesh& mesh) {
   return std::ranges::all_of(ways, [](const auto& it) { return it.second == 0; });
 }
 
+/// The paler the less opaque it is, as a picture of the drawing has it.
+TEST(DrawingShape, LinesThatAreNotOpaqueAreSeenOnTheSheet) {
+  Drawing drawing = one_line();
+  auto stroke = std::make_shared<Stroke>(*drawing.layers[0].strokes[0]);
+  stroke->colour = {1.0F, 0.0F, 0.5F};
+  stroke->opacity = 0.25;
+  drawing.layers[0].strokes[0] = stroke;
+  const auto colour_of_line = [&](double sheet) {
+    return (*shape_with(drawing, {.heights = {}, .sheet = sheet})->triangles(0.0))->colours.back()[0];
+  };
+  const Colour pale = colour_of_line(0.001);
+  EXPECT_FLOAT_EQ(pale[0], 1.0F);
+  EXPECT_FLOAT_EQ(pale[1], 0.75F);
+  EXPECT_FLOAT_EQ(pale[2], 0.875F);
+  EXPECT_EQ(colour_of_line(0.0), stroke->colour) << "there is nothing below it";
+}
+
 TEST(DrawingShape, ComesBackFromItsBytesAndFromItsText) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     Drawing drawing = random_drawing(seed);

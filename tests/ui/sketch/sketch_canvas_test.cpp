@@ -110,6 +110,41 @@ TEST_F(SketchCanvasTest, ALassoSelectsAndADragWithinItsFrameMoves) {
   EXPECT_TRUE(document().selection().empty());
 }
 
+/// Dragged to near the grid it lies on it; dragged on, where the pen brings it.
+TEST_F(SketchCanvasTest, WhatIsDraggedIsAttractedToGridAndAnglesWhereThatIsWished) {
+  mouse({{50.0, 50.0}, {80.0, 62.0}, {110.0, 50.0}});
+  document().perform(command("select-all"));
+  canvas().choose(SketchToolKind::Lasso);
+  const auto box = [&] { return sketch::bounds_of(document().drawing(), document().selection()); };
+  const auto off_grid = [](double metres) { return std::abs(std::remainder(metres, 0.005)); };
+  const double zone = canvas().view().on_paper(10.0);
+  ASSERT_LT(zone, 0.005);
+  const auto drag_corner_to = [&](double x, double y) {
+    const drawing::Vector2 corner = box().min(), middle = box().center();
+    mouse({{1000.0 * middle.x(), 1000.0 * middle.y()},
+           {1000.0 * middle.x() + x - 1000.0 * corner.x(), 1000.0 * middle.y() + y - 1000.0 * corner.y()}});
+  };
+  drag_corner_to(30.0 + 200.0 * zone, 75.0 - 150.0 * zone);
+  EXPECT_GT(off_grid(box().min().x()), 1e-4) << "it is not wished";
+  window_->look().attract = true;
+  drag_corner_to(30.0 + 200.0 * zone, 75.0 - 150.0 * zone);
+  EXPECT_LT((box().min() - drawing::Vector2(0.03, 0.075)).norm(), 1e-9);
+  drag_corner_to(32.5, 77.5);
+  EXPECT_LT((box().min() - drawing::Vector2(0.0325, 0.0775)).norm(), 1e-8)
+      << "as far from the grid as can be";
+
+  const drawing::Vector2 middle = box().center();
+  const QPointF knob = canvas().view().to_screen({middle.x(), box().min().y()}) - QPointF(0.0, 8.0 + 22.0);
+  const drawing::Vector2 arm = canvas().view().to_paper(knob) - middle;
+  const drawing::Vector2 turned = middle + Eigen::Rotation2Dd(0.26 * 2.0 + 0.012) * arm;
+  const drawing::Vector2 first = strokes()[0]->curve.at(0.0) - middle;
+  mouse({{1000.0 * (middle + arm).x(), 1000.0 * (middle + arm).y()},
+         {1000.0 * turned.x(), 1000.0 * turned.y()}});
+  const drawing::Vector2 now = strokes()[0]->curve.at(0.0) - middle;
+  const double angle = std::atan2(first.x() * now.y() - first.y() * now.x(), first.dot(now));
+  EXPECT_NEAR(angle, 0.52359878, 1e-6);
+}
+
 TEST_F(SketchCanvasTest, EndsAreConnectedAndWhatTheyEncloseIsFilled) {
   mouse({{50.0, 50.0}, {90.0, 50.0}, {90.0, 90.0}, {50.0, 90.0}, {50.0, 54.0}});
   canvas().choose(SketchToolKind::Connect);

@@ -3,6 +3,7 @@
 #include <QMouseEvent>
 #include <QPointingDevice>
 #include <QTabletEvent>
+#include <QTemporaryDir>
 #include <vector>
 
 #include "ui/desktop_test.h"
@@ -15,7 +16,7 @@ class SketchHands : public ::testing::Test {
  protected:
   SketchHands() {
     application();
-    window_ = std::make_unique<SketchWindow>();
+    window_ = std::make_unique<SketchWindow>(settings_file());
     window_->resize(1000, 700);
     window_->show();
     QCoreApplication::processEvents();
@@ -26,6 +27,7 @@ class SketchHands : public ::testing::Test {
     double pressure = 0.5;
   };
 
+  QString settings_file() const { return folder_.filePath("settings.conf"); }
   SketchDocument& document() { return window_->document(); }
   SketchCanvas& canvas() { return window_->canvas(); }
   QPointF on_canvas(const At& at) const {
@@ -67,6 +69,7 @@ class SketchHands : public ::testing::Test {
     return all;
   }
 
+  QTemporaryDir folder_;
   std::unique_ptr<SketchWindow> window_;
 
  private:

@@ -1,9 +1,10 @@
 #include "ui/sketch/sketch_window.h"
 
+#include <QDockWidget>
 #include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
-#include <QTemporaryDir>
+#include <QSettings>
 #include <QToolButton>
 #include <QTreeWidget>
 #include <fstream>
@@ -22,8 +23,6 @@ class SketchWindowTest : public SketchHands {
   }
   std::filesystem::path file(const char* name) const { return folder_.filePath(name).toStdString(); }
   void draw_line() { mouse({{50.0, 50.0}, {100.0, 55.0}, {150.0, 50.0}}); }
-
-  QTemporaryDir folder_;
 };
 
 TEST_F(SketchWindowTest, WhatIsSavedIsOpenedAgain) {
@@ -33,13 +32,58 @@ TEST_F(SketchWindowTest, WhatIsSavedIsOpenedAgain) {
   EXPECT_FALSE(window_->isWindowModified());
   EXPECT_EQ(window_->windowTitle(), "drawing.svg[*] - ICOME");
   const drawing::Curve drawn = strokes()[0]->curve;
-  SketchWindow other;
+  SketchWindow other(settings_file());
   other.open(file("drawing.svg"));
   ASSERT_EQ(other.document().drawing().stroke_count(), 1U);
   const drawing::Curve& read = other.document().drawing().layers[0].strokes[0]->curve;
   ASSERT_EQ(read.segments.size(), drawn.segments.size());
   EXPECT_LT((read.at(0.5) - drawn.at(0.5)).norm(), 1e-9);
   EXPECT_FALSE(other.isWindowModified());
+}
+
+TEST_F(SketchWindowTest, ChoicesAndPanelsAreAsTheLastWindowLeftThem) {
+  SketchLook& look = window_->look();
+  look.colour = {1.0F, 0.0F, 0.0F};
+  look.opacity = 0.25;
+  look.tip = {.thinnest = 0.0005, .widest = 0.004};
+  look.pressure = {.lightest = 0.2, .middle = 0.3, .hardest = 0.9};
+  look.ends = drawing::CurveEnds::Flat;
+  look.whole_strokes = look.onion = true;
+  look.predict = false;
+  window_->findChild<QDockWidget*>("dock.layers")->hide();
+  window_.reset();
+  SketchWindow next(settings_file());
+  next.show();
+  EXPECT_EQ(next.look().colour, (drawing::Colour{1.0F, 0.0F, 0.0F}));
+  EXPECT_EQ(next.look().opacity, 0.25);
+  EXPECT_EQ(next.look().tip.thinnest, 0.0005);
+  EXPECT_EQ(next.look().tip.widest, 0.004);
+  EXPECT_NEAR(next.look().pressure(0.5), 0.3, 1e-12);
+  EXPECT_EQ(next.look().ends, drawing::CurveEnds::Flat);
+  EXPECT_TRUE(next.look().whole_strokes && next.look().onion && !next.look().predict);
+  EXPECT_TRUE(next.findChild<QAction*>("view.onion")->isChecked());
+  EXPECT_FALSE(next.findChild<QAction*>("view.predict")->isChecked());
+  EXPECT_TRUE(next.findChild<QDockWidget*>("dock.layers")->isHidden());
+}
+
+TEST_F(SketchWindowTest, SettingsThatMakeNoSenseAreLeft) {
+  {
+    QSettings wrong(settings_file(), QSettings::IniFormat);
+    wrong.beginGroup("drawing");
+    for (const char* name : {"colour", "fill", "opacity", "thinnest", "widest", "eraser_radius"})
+      wrong.setValue(name, "nan");
+    wrong.setValue("hardest", 7);
+    wrong.setValue("middle", -1);
+    wrong.setValue("window/state", QByteArray("state"));
+  }
+  SketchWindow next(settings_file());
+  const SketchLook usual;
+  EXPECT_EQ(next.look().opacity, usual.opacity);
+  EXPECT_EQ(next.look().tip.widest, usual.tip.widest);
+  EXPECT_EQ(next.look().eraser_radius, usual.eraser_radius);
+  EXPECT_EQ(next.look().pressure(0.5), usual.pressure(0.5));
+  EXPECT_EQ(next.look().pressure(1.0), 1.0);
+  EXPECT_EQ(next.look().colour, usual.colour);
 }
 
 TEST_F(SketchWindowTest, UndoComesBackToWhatWasSaved) {

@@ -25,29 +25,30 @@ Value listed_points(const std::vector<Vector2>& listed) {
   return points;
 }
 
+/// A profile and its holes; an open one has none.
+struct HoledProfile {
+  geometry::Profile profile;
+  std::vector<std::vector<Vector2>> holes = {};
+};
+
 /// The profiles that an object gives, all in one frame.
 struct ObjectProfiles {
-  std::vector<geometry::Profile> profiles;
+  std::vector<HoledProfile> profiles;
   base::Affine3 shape_from_profile = base::Affine3::Identity();
 };
 
 /// The profiles of a drawing: what its closed curves enclose or, where they are `open`, its other curves.
-Result<std::vector<geometry::Profile>> profiles_of_curves(const world::Geometry& shape, bool open) {
+Result<std::vector<HoledProfile>> profiles_of_curves(const world::Geometry& shape, bool open) {
   constexpr double kFineness = 2000.0;  // of the shape's size
   const auto curves = shape.flat_curves(shape.bounds().diagonal().norm() / kFineness);
   if (!curves) return tl::unexpected(curves.error());
-  std::vector<geometry::Profile> profiles;
+  std::vector<HoledProfile> profiles;
   if (open) {
-    for (const std::vector<Vector2>& line : curves->lines) profiles.push_back({line, true});
+    for (const std::vector<Vector2>& line : curves->lines) profiles.push_back({{line, true}});
     if (profiles.empty()) return fail("it has no open curve");
     return profiles;
   }
-  for (const geometry::Outline& area : curves->areas) {
-    if (!area.holes.empty())
-      return fail(
-          "an area of it has a hole: sweep the rim and the hole from layers of their own, and combine");
-    profiles.push_back({area.rim});
-  }
+  for (const geometry::Outline& area : curves->areas) profiles.push_back({{area.rim}, area.holes});
   if (profiles.empty()) return fail("it has no closed curve; say 'open' to sweep a line");
   return profiles;
 }
@@ -57,7 +58,7 @@ Result<ObjectProfiles> profiles_of(const world::Geometry& shape, bool open) {
     if (open) return fail("'open' is for points and drawings: the outline of a mesh is closed");
     auto outline = flat_outline(*mesh);
     if (!outline) return tl::unexpected(outline.error());
-    return ObjectProfiles{{std::move(outline->profile)}, outline->mesh_from_profile};
+    return ObjectProfiles{{{std::move(outline->profile)}}, outline->mesh_from_profile};
   }
   auto profiles = profiles_of_curves(shape, open);
   if (!profiles) return tl::unexpected(profiles.error());
@@ -75,7 +76,7 @@ Result<ObjectProfiles> named_profiles(const world::World& world, const Arguments
     return fail(fmt::format("the profile '{}': {}", object.name, why));
   };
   if (!found) return wrong(found.error().message);
-  std::vector<geometry::Profile>& profiles = found->profiles;
+  std::vector<HoledProfile>& profiles = found->profiles;
   if (arguments.has("which")) {
     const auto which = std::size_t(arguments.count("which"));
     if (which > profiles.size())
@@ -90,22 +91,23 @@ Result<ObjectProfiles> named_profiles(const world::World& world, const Arguments
 
 /// The extrusion of one profile with the other arguments as they are.
 Result<world::GeometryPointer> sweep_of(const world::World& world, const Arguments& arguments,
-                                        Value::Fields making, const geometry::Profile& profile) {
+                                        Value::Fields making, const HoledProfile& holed) {
+  const geometry::Profile& profile = holed.profile;
   making.emplace_back("points", listed_points(profile.points));
   if (!arguments.has("places") && !profile.places.empty())
     making.emplace_back("places", listed_points(profile.places));
   const auto sweep = Arguments::check(extrusion_parameters(), making, world);
   if (!sweep) return tl::unexpected(sweep.error());
-  return make_extrusion(*sweep);
+  return holed.holes.empty() ? make_extrusion(*sweep) : make_extrusion_with_holes(*sweep, holed.holes);
 }
 
 /// All sweeps as one mesh, which has no recipe where there are several.
 Result<world::GeometryPointer> sweeps_of(const world::World& world, const Arguments& arguments,
                                          const Value::Fields& making,
-                                         const std::vector<geometry::Profile>& profiles) {
+                                         const std::vector<HoledProfile>& profiles) {
   if (profiles.size() == 1) return sweep_of(world, arguments, making, profiles.front());
   geometry::TriangleMesh all;
-  for (const geometry::Profile& profile : profiles) {
+  for (const HoledProfile& profile : profiles) {
     const auto part = sweep_of(world, arguments, making, profile);
     if (!part) return tl::unexpected(part.error());
     geometry::append(all, static_cast<const world::MeshGeometry&>(**part).mesh);

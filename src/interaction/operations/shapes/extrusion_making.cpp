@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "geometry/sweep/extrusion.h"
+#include "geometry/sweep/outline_extrusion.h"
 #include "geometry/sweep/self_crossing.h"
 #include "interaction/operations/placement.h"
 #include "interaction/operations/shapes/shape_making.h"
@@ -134,6 +134,17 @@ Result<world::GeometryPointer> make_extrusion(const Arguments& arguments) {
   // A larger drawing gets no recipe, as if made by hand.
   if (recipe.size() <= world::kMostRecipeBytes) (*shape)->recipe = std::move(recipe);
   return *shape;
+}
+
+Result<world::GeometryPointer> make_extrusion_with_holes(const Arguments& arguments,
+                                                         std::vector<std::vector<Vector2>> holes) {
+  const auto steps = steps_of(arguments);
+  if (!steps) return tl::unexpected(steps.error());
+  if (arguments.has("places")) return base::fail("'places' are for an outline without holes");
+  const geometry::Outline outline{arguments.points2("points"), std::move(holes)};
+  auto mesh = geometry::extrude_outline(outline, *steps, ends_of(arguments.text("ends")));
+  if (!mesh) return tl::unexpected(mesh.error());
+  return std::make_shared<world::MeshGeometry>(std::move(*mesh));
 }
 
 std::string remark_on_sweep(const world::Geometry& sweep) {

@@ -23,6 +23,10 @@ const std::vector<Parameter>& extrusion_parameters();
 /// The sweep of arguments checked against these. Fails as geometry::extrude() does.
 base::Result<world::GeometryPointer> make_extrusion(const Arguments& arguments);
 
+/// Likewise of a profile with holes, the rim of which is the arguments' `points`: a shape without a recipe.
+base::Result<world::GeometryPointer> make_extrusion_with_holes(const Arguments& arguments,
+                                                               std::vector<std::vector<Vector2>> holes);
+
 /// The remark on a sweep that goes through itself, which is no solid then, or that is too intricate to be
 /// tested; empty for others, such as one that only touches itself.
 std::string remark_on_sweep(const world::Geometry& sweep);

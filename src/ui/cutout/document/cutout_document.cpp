@@ -7,6 +7,7 @@
 #include <QStandardPaths>
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <system_error>
 #include <utility>
 
@@ -65,6 +66,7 @@ void CutoutDocument::take(Project project, const fs::path& folder) {
   keys_.clear();
   tried_.reset();
   recording_.reset();
+  has_parts_ = false;
   frame_ = 0;
   told_journal_ = false;
   shown_ = keyed();
@@ -72,12 +74,27 @@ void CutoutDocument::take(Project project, const fs::path& folder) {
 
 /// An edit that cannot be written down is done anyway: a full disk must not keep a person from working on.
 base::Result<void> CutoutDocument::write_down(const ProjectEdit& edit) {
+  using Line = animation::ProjectJournal::Line;
+  const bool ends_parts = !recording_ && std::exchange(has_parts_, false);
+  write_down(edit, ends_parts ? Line::Whole : Line::Edit);
+  return {};
+}
+
+void CutoutDocument::write_down(const ProjectEdit& edit, animation::ProjectJournal::Line line) {
   if (!journal_ && !closed_ && file_.empty() && kept_.empty()) keep_for_recovery();
-  if (!journal_) return {};
-  const auto added = journal_->add(edit);
+  if (!journal_) return;
+  const auto added = journal_->add(edit, line);
   if (!added && !std::exchange(told_journal_, true))
     risk_(fmt::format("{} What you do is no longer safe from a crash: save it.", added.error().message));
-  return {};
+}
+
+/// Keeps what was recorded so far against a crash.
+void CutoutDocument::write_part() {
+  part_from_ = frame_;
+  const ProjectEdit part = recording_->next_part();
+  if (part.empty()) return;
+  write_down(part, animation::ProjectJournal::Line::Part);
+  has_parts_ = true;
 }
 
 void CutoutDocument::begin_journal(std::uint64_t length) {
@@ -161,11 +178,13 @@ void CutoutDocument::take_down(const std::vector<animation::Hold>& holds) {
     if (is_held || before == still.end() || !(before->second == state)) moved.emplace(cell, state);
   }
   recording_->take(frame_, moved);
+  if (std::abs(frame_ - part_from_) >= project().stage.rate) write_part();
 }
 
 void CutoutDocument::begin_recording(std::optional<animation::LayerId> layer) {
   give_up();
   recording_.emplace(project(), layer);
+  part_from_ = frame_;
   changed_(CutoutChange::Frame);
 }
 
@@ -181,6 +200,7 @@ void CutoutDocument::end_recording(double tolerance) {
 bool CutoutDocument::keep() {
   if (!tried_) return true;
   if (recording_) {
+    write_part();
     give_up();
     return true;
   }

@@ -133,6 +133,8 @@ class CutoutDocument {
   void use_folder(const std::filesystem::path& folder);
   void take(animation::Project project, const std::filesystem::path& folder);
   base::Result<void> write_down(const animation::ProjectEdit& edit);
+  void write_down(const animation::ProjectEdit& edit, animation::ProjectJournal::Line line);
+  void write_part();
   void begin_journal(std::uint64_t length);
   bool is_own(const std::filesystem::path& file) const;
   void keep_for_recovery();
@@ -156,6 +158,8 @@ class CutoutDocument {
   CellStates shown_;
   std::optional<CellStates> tried_;
   std::optional<animation::Recording> recording_;
+  int part_from_ = 0;       // frame at which the journal's next part of the recording begins
+  bool has_parts_ = false;  // in the journal, whose recording is not written as a whole yet
   std::function<void(CutoutChange)> changed_ = [](CutoutChange) {};
   std::function<void(const std::string&)> remark_ = [](const std::string&) {};
   std::function<void(const std::string&)> risk_ = [](const std::string&) {};

@@ -20,7 +20,7 @@ namespace icome::ui {
 namespace {
 
 constexpr const char* kAnimations = "Cut-out animations (*.cutout)";
-constexpr const char* kCellFiles = "Pictures (*.png *.svg *.jpg *.jpeg *.icome)";
+constexpr const char* kCellFiles = "Pictures (*.png *.svg *.svgz *.jpg *.jpeg *.icome)";
 
 QFileDialog* cutout_dialog(QWidget& window, const char* name, const char* title, const QStringList& filters) {
   auto* dialog = new QFileDialog(&window, title);

@@ -132,6 +132,34 @@ TEST_F(TransportTest, WhatIsMovedAfterTheCountInIsRecordedAsOneStep) {
   EXPECT_TRUE(cell("boat").tracks[std::size_t(Channel::X)].empty());
 }
 
+/// Whatever ends the program in the middle of a recording takes no more than the last second of it.
+TEST_F(TransportTest, ARecordingThatGoesOnIsOnTheDisk) {
+  set_length(200);
+  ASSERT_TRUE(document().save(file("r.cutout")));
+  const auto on_disk = [&] {
+    const auto read = animation::read_project_file(file("r.cutout"));
+    EXPECT_TRUE(read && read->note.empty());
+    return *read->project.find("boat");
+  };
+  transport().set_count_in(0);
+  transport().record(std::nullopt);
+  pass(0.001);
+  const auto way = [](int frame) { return 640.0 + 0.5 * frame * frame; };
+  for (int frame = 0; frame < 60; ++frame) {
+    animation::Hold hold{.cell = cell("boat").id, .wish = shown("boat")};
+    hold.wish.place.x() = way(frame);
+    document().try_out({hold});
+    pass(0.04);
+  }
+  for (int frame = 0; frame <= 50; ++frame)
+    ASSERT_NEAR(animation::state_at(on_disk(), frame).place.x(), way(frame), 1e-9) << frame;
+  EXPECT_TRUE(cell("boat").tracks[std::size_t(Channel::X)].empty()) << "it goes on";
+  transport().stop();
+  EXPECT_EQ(on_disk(), cell("boat"));
+  document().undo();
+  EXPECT_EQ(on_disk(), cell("boat"));
+}
+
 TEST_F(TransportTest, OnlyTheChosenLayerIsRecorded) {
   document().perform(cutout_command("add-layer", {{"name", "front"}}));
   add_cell("bird");
