@@ -243,6 +243,7 @@ TEST_P(LinkStrangersTest, DoNotHurtWhoIsHonest) {
     bench_.send(link, std::to_string(++next));
   };
   bench_.send(honest, "0");
+  const std::string upgrade = request("/icome", "Slow: " + std::string(100'000, 'x') + "\r\n");
   std::size_t look = 0;
   std::size_t over = 0;
   ASSERT_TRUE(bench_.run_until([&] {
@@ -252,7 +253,7 @@ TEST_P(LinkStrangersTest, DoNotHurtWhoIsHonest) {
       if (strangers[i].is_over())
         ++over;
       else
-        bother(strangers[i], i, look, request("/icome", "Slow: " + std::string(100'000, 'x') + "\r\n"));
+        bother(strangers[i], i, look, upgrade);
     }
     return over == kStrangers && next >= 200;
   })) << over
