@@ -18,6 +18,9 @@ void catch_interrupts() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction hangup {};
+  const bool outlives = sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler == SIG_IGN;
+  if (!outlives) sigaction(SIGHUP, &action, nullptr);
 }
 
 bool interrupted() { return asked_to_end != 0; }

@@ -334,6 +334,37 @@ class Record(unittest.TestCase):
         _, project = self.record(known=known)
         self.assertIn("keys", cell_in(project, "a"))
 
+    def slow_source(self, end=""):
+        """The made frames at 25 a second, over and over."""
+        return (f"gst:multifilesrc location={self.folder}/made/frame%06d.jpg start-index=0 stop-index=9 loop=true "
+                f"caps=image/jpeg,framerate=25/1 ! jpegdec ! videoconvert ! identity sync=true {end}").strip()
+
+    def begin_recording(self, source):
+        script = self.folder / "edits.jsonl"
+        script.write_text('{"op": "stage", "length": 100000}\n{"op": "add-cell", "name": "a", "pictures": "square.svg"}\n'
+                          '{"op": "map", "triangle": "t1", "cell": "a"}\n')
+        (self.folder / "kept.cutout").unlink(missing_ok=True)
+        return subprocess.Popen([PROGRAM, "animate", "new", "--apply", script, "--record", source, "--known",
+                                 "made/known.toml", "--view", "made/view.toml", "--save", "kept.cutout", "--json"],
+                                cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def test_a_recording_is_kept_when_its_terminal_is_closed(self):
+        for end in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM):
+            with self.begin_recording(self.slow_source()) as recording:
+                time.sleep(4)
+                recording.send_signal(end)
+                told = json.loads(recording.communicate(timeout=120)[0])
+                self.assertEqual(recording.returncode, 0)
+            self.assertGreater(told["recorded"]["frames"], 0)
+            self.assertIn("keys", cell_in(self.folder / "kept.cutout", "a"))
+
+    def test_a_source_that_breaks_off_is_told_and_what_came_is_kept(self):
+        with self.begin_recording(self.slow_source("error-after=20")) as recording:
+            told = json.loads(recording.communicate(timeout=120)[0])
+            self.assertEqual(recording.returncode, 1)
+        self.assertGreater(told["recorded"]["frames"], 5)
+        self.assertIn("keys", cell_in(self.folder / "kept.cutout", "a"))
+
     def test_says_what_is_wrong(self):
         script = self.folder / "edits.jsonl"
         known = ["--known", "made/known.toml"]

@@ -69,6 +69,7 @@ class AnimateRun {
     if (!options_.record.empty()) {
       const auto recorded = record_hands(options_, *runner_, pictures_);
       if (!recorded) return animate_failed(recorded.error().message);
+      if (interrupted() && recorded->frames == 0) return kAnimateInterrupted;
       report_.recorded = *recorded;
     }
     const bool good = report_.outcome.errors.empty() || options_.keep_going;
@@ -92,8 +93,8 @@ class AnimateRun {
     if (!read->note.empty()) note(read->note);
     report_.recovered = read->recovered;
     if (read->recovered > 0)
-      note(fmt::format("{}: {} edits that were not saved are taken from its journal.",
-                       options_.project.string(), read->recovered));
+      note(fmt::format("{}: {} not saved and taken from its journal.", options_.project.string(),
+                       read->recovered == 1 ? "1 edit was" : fmt::format("{} edits were", read->recovered)));
     return std::move(read->project);
   }
 
@@ -161,12 +162,13 @@ class AnimateRun {
     }
     if (!report_.written)
       for (const animation::PictureProblem& problem : report_.missing) tell(problem.message);
-    const bool good = report_.outcome.errors.empty();
+    const bool good = report_.outcome.errors.empty() && !(report_.recorded && report_.recorded->broke_off);
     if (options_.json) {
       const int printed = print_answer(animate_json(options_, runner_->project(), report_));
       return good ? printed : kFailed;
     }
-    if (good || options_.keep_going) print(animate_text(options_, runner_->project(), report_));
+    if (report_.outcome.errors.empty() || options_.keep_going)
+      print(animate_text(options_, runner_->project(), report_));
     return good ? 0 : kFailed;
   }
 

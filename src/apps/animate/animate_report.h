@@ -14,7 +14,8 @@ namespace icome::apps {
 struct RecordedHands {
   std::size_t frames = 0;  // of the source
   std::uint64_t dropped = 0;
-  std::size_t keys = 0;  // that it made
+  std::size_t keys = 0;    // that it made
+  bool broke_off = false;  // the source failed, such as a camera that was unplugged
 };
 
 /// The pictures that were written.

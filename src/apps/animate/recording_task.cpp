@@ -84,6 +84,7 @@ class HandRecording {
           continue;
         }
         if (recorded.frames == 0) return tl::unexpected(next.error());
+        recorded.broke_off = true;
         break;
       }
       if (!*next) break;
