@@ -10,7 +10,7 @@ namespace icome::interaction {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kCommands = 1'000;
+constexpr int kCommands = 300;
 #else
 constexpr int kCommands = 10'000;
 #endif
