@@ -88,8 +88,8 @@ Pixels upright(Pixels pixels, int orientation) {
   for (int y = 0; y < turned.height; ++y)
     for (int x = 0; x < turned.width; ++x) {
       const int column = lies ? y : x, row = lies ? x : y;
-      *to++ = pixels.row(from_below ? pixels.height - 1 - row
-                                    : row)[from_right ? pixels.width - 1 - column : column];
+      const std::uint32_t* const from = pixels.row(from_below ? pixels.height - 1 - row : row);
+      *to++ = from[from_right ? pixels.width - 1 - column : column];
     }
   return turned;
 }

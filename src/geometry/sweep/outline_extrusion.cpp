@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -24,7 +25,8 @@ constexpr double kSameArea = 1e-9;
 double ring_area(const std::vector<Vector2>& ring) {
   double doubled = 0.0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vector2 &a = ring[i] - ring[0], &b = ring[(i + 1) % ring.size()] - ring[0];
+    const Vector2 a = ring[i] - ring[0];
+    const Vector2 b = ring[(i + 1) % ring.size()] - ring[0];
     doubled += a.x() * b.y() - a.y() * b.x();
   }
   return 0.5 * doubled;
@@ -101,7 +103,19 @@ bool has_edge(const std::vector<Triangle>& triangles, std::uint32_t from, std::u
   });
 }
 
-/// Fills a rim of the walls with the cap; false where its corners are not all there.
+/// Do the walls run around the rim of an end as its corners do? Its edges on the axis of a turn have no
+/// walls.
+bool runs_along(const TriangleMesh& walls, std::span<const std::uint32_t> rim) {
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const std::uint32_t from = rim[i], to = rim[(i + 1) % rim.size()];
+    if (has_edge(walls.triangles, from, to)) return true;
+    if (has_edge(walls.triangles, to, from)) return false;
+  }
+  return false;
+}
+
+/// Fills an end of the walls with the cap, the first corners of which are its rim; false where the corners
+/// are not all there, each by itself.
 bool add_cap(const TriangleMesh& cap, const Affine3& place, std::size_t rim, bool last, TriangleMesh& walls) {
   const WallVertices vertices(walls, last);
   std::vector<std::uint32_t> numbers;
@@ -110,11 +124,8 @@ bool add_cap(const TriangleMesh& cap, const Affine3& place, std::size_t rim, boo
     if (!number) return false;
     numbers.push_back(*number);
   }
-  // The edge of the cap between the first two corners runs from the one to the other, where the walls run
-  // back.
-  const auto begins = std::ranges::find_if(numbers, [&](std::uint32_t it) { return it != numbers[0]; });
-  if (begins != numbers.begin() + 1 || rim < 3) return false;
-  const bool turned = has_edge(walls.triangles, numbers[0], numbers[1]);
+  if (std::set(numbers.begin(), numbers.end()).size() != numbers.size()) return false;
+  const bool turned = runs_along(walls, std::span(numbers).first(rim));
   for (const auto& [a, b, c] : cap.triangles) {
     const Triangle triangle = {numbers[a], numbers[b], numbers[c]};
     walls.triangles.push_back(turned ? Triangle{triangle[0], triangle[2], triangle[1]} : triangle);

@@ -4,8 +4,6 @@
 #include <utility>
 
 namespace icome::ui {
-namespace {}  // namespace
-
 PenPanel::PenPanel(SketchDocument& document, SketchLook& look, QWidget* parent)
     : QWidget(parent), document_(document), look_(look), pen_(new PanelSection("Pen", this)) {
   setObjectName("pen");

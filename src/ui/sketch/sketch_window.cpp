@@ -28,8 +28,8 @@
 namespace icome::ui {
 namespace {
 
-constexpr int kSketchLayout =
-    1;  // counts up when docks and bars change, so that old layouts are not restored
+/// Counts up when docks and bars change, so that old layouts are not restored.
+constexpr int kSketchLayout = 1;
 
 struct SketchToolEntry {
   SketchToolKind tool;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/random.h"
@@ -68,6 +69,23 @@ TEST(OutlineExtrusion, AHollowRingIsAsLargeAsTheWayOfItsProfile) {
   EXPECT_FALSE(is_closed(*open));
 }
 
+/// The edge on the axis of the turn has no walls, so that both caps meet there.
+TEST(OutlineExtrusion, AProfileMayLieOnTheAxisWithAnEdge) {
+  SweepStep step;
+  step.axis = Vector3::UnitY();
+  step.angle = kTurn / 64;
+  step.repeat = 16;
+  const std::vector<Vector2> square = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+  for (std::size_t first = 0; first < 4; ++first) {  // also as the first edge
+    Outline outline = {square, {ring_about({1, 1}, 0.5, 12)}};
+    std::ranges::rotate(outline.rim, outline.rim.begin() + std::ptrdiff_t(first));
+    const auto mesh = extrude_outline(outline, std::vector{step});
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_TRUE(is_closed(*mesh)) << first;
+    EXPECT_NEAR(signed_volume(*mesh) / (0.25 * kTurn * (4.0 - area_of_circle(0.5, 12))), 1.0, 0.003);
+  }
+}
+
 /// Random holes in the cells of a grid, along random sweeps.
 TEST(OutlineExtrusion, RandomOnesAreClosedAndAsLargeAsRimLessHoles) {
   base::Random random(8);
@@ -114,6 +132,10 @@ TEST(OutlineExtrusion, RefusesHolesThatAreNone) {
   SweepStep to_a_point = up;
   to_a_point.scaling = {0, 0, 1};
   EXPECT_NE(complaint({ring_about({2, 2}, 1, 9)}, to_a_point).find("point or a line"), std::string::npos);
+  SweepStep to_a_line = up;
+  to_a_line.scaling = {1, 0, 1};
+  to_a_line.centre = {0, 2, 0};
+  EXPECT_NE(complaint({ring_about({2, 2}, 1, 12)}, to_a_line), "none");
 }
 
 }  // namespace

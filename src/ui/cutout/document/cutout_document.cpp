@@ -76,11 +76,11 @@ void CutoutDocument::take(Project project, const fs::path& folder) {
 base::Result<void> CutoutDocument::write_down(const ProjectEdit& edit) {
   using Line = animation::ProjectJournal::Line;
   const bool ends_parts = !recording_ && std::exchange(has_parts_, false);
-  write_down(edit, ends_parts ? Line::Whole : Line::Edit);
+  write_line(edit, ends_parts ? Line::Whole : Line::Edit);
   return {};
 }
 
-void CutoutDocument::write_down(const ProjectEdit& edit, animation::ProjectJournal::Line line) {
+void CutoutDocument::write_line(const ProjectEdit& edit, animation::ProjectJournal::Line line) {
   if (!journal_ && !closed_ && file_.empty() && kept_.empty()) keep_for_recovery();
   if (!journal_) return;
   const auto added = journal_->add(edit, line);
@@ -93,7 +93,7 @@ void CutoutDocument::write_part() {
   part_from_ = frame_;
   const ProjectEdit part = recording_->next_part();
   if (part.empty()) return;
-  write_down(part, animation::ProjectJournal::Line::Part);
+  write_line(part, animation::ProjectJournal::Line::Part);
   has_parts_ = true;
 }
 

@@ -133,7 +133,7 @@ class CutoutDocument {
   void use_folder(const std::filesystem::path& folder);
   void take(animation::Project project, const std::filesystem::path& folder);
   base::Result<void> write_down(const animation::ProjectEdit& edit);
-  void write_down(const animation::ProjectEdit& edit, animation::ProjectJournal::Line line);
+  void write_line(const animation::ProjectEdit& edit, animation::ProjectJournal::Line line);
   void write_part();
   void begin_journal(std::uint64_t length);
   bool is_own(const std::filesystem::path& file) const;
