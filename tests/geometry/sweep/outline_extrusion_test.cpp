@@ -73,16 +73,18 @@ TEST(OutlineExtrusion, AHollowRingIsAsLargeAsTheWayOfItsProfile) {
 TEST(OutlineExtrusion, AProfileMayLieOnTheAxisWithAnEdge) {
   SweepStep step;
   step.axis = Vector3::UnitY();
-  step.angle = kTurn / 64;
   step.repeat = 16;
   const std::vector<Vector2> square = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
-  for (std::size_t first = 0; first < 4; ++first) {  // also as the first edge
-    Outline outline = {square, {ring_about({1, 1}, 0.5, 12)}};
-    std::ranges::rotate(outline.rim, outline.rim.begin() + std::ptrdiff_t(first));
-    const auto mesh = extrude_outline(outline, std::vector{step});
-    ASSERT_TRUE(mesh) << mesh.error().message;
-    EXPECT_TRUE(is_closed(*mesh)) << first;
-    EXPECT_NEAR(signed_volume(*mesh) / (0.25 * kTurn * (4.0 - area_of_circle(0.5, 12))), 1.0, 0.003);
+  for (const double sense : {1.0, -1.0}) {
+    step.angle = sense * kTurn / 64;
+    for (std::size_t first = 0; first < 4; ++first) {  // also as the first edge
+      Outline outline = {square, {ring_about({1, 1}, 0.5, 12)}};
+      std::ranges::rotate(outline.rim, outline.rim.begin() + std::ptrdiff_t(first));
+      const auto mesh = extrude_outline(outline, std::vector{step});
+      ASSERT_TRUE(mesh) << mesh.error().message;
+      EXPECT_TRUE(is_closed(*mesh)) << sense << " " << first;
+      EXPECT_NEAR(signed_volume(*mesh) / (0.25 * kTurn * (4.0 - area_of_circle(0.5, 12))), 1.0, 0.003);
+    }
   }
 }
 
