@@ -1,6 +1,7 @@
 """`icome study run` with simulated people: what is logged, what is refused, and what kills leave."""
 import csv
 import json
+import os
 import pathlib
 import random
 import signal
@@ -10,7 +11,7 @@ import unittest
 
 from icome_program import PROGRAM, ProgramTest, run
 
-KILLS = 1000
+KILLS = int(os.environ.get("ICOME_STUDY_KILLS", "250"))  # 1,000 take one and a half minutes of a quiet machine
 LATEST_KILL = 0.08  # s after the start: a run needs some 20 ms to begin, and a trial about as much; at first
 
 
@@ -263,7 +264,7 @@ class StudyRunTest(ProgramTest):
         for name in names:
             self.assertEqual((one / name).read_bytes(), (other / name).read_bytes(), name)
 
-    def test_a_thousand_kills_lose_at_most_the_trial_that_was_running(self):
+    def test_kills_lose_at_most_the_trial_that_was_running(self):
         # Some 1,000 trials of one person, so that there is something to kill.
         file = self.study(change=lambda text: text.replace("measured = 10", "measured = 500"))
         whole = self.simulate(file, 1)
@@ -290,7 +291,7 @@ class StudyRunTest(ProgramTest):
                 self.assert_same_trials(whole, data)
                 ended += 1
                 data, done, in_vain = self.folder / f"killed{ended}", 0, 0
-        self.assertGreater(logged, 100)  # trials were under way
+        self.assertGreater(logged, 0.1 * KILLS)  # trials were under way
         self.simulate(file, 1, "--data", data)
         self.assert_same_trials(whole, data)
 
