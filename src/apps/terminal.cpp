@@ -59,6 +59,10 @@ void print(std::string_view text) {
   std::fwrite(shown.data(), 1, shown.size(), stdout);
 }
 
+std::string how_many(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 int print_answer(std::string_view text) {
   print(text);
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;

@@ -16,6 +16,8 @@ bool ask(std::string_view question);
 void print(std::string_view text);
 /// As print(); gives the exit code, kFailed where standard output cannot be written.
 int print_answer(std::string_view text);
+/// "1 stroke", "2 strokes".
+std::string how_many(std::size_t count, std::string_view what);
 
 constexpr int kFailed = 1;  // exit code: something could not be done
 

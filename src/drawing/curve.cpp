@@ -64,6 +64,15 @@ Bounds2 Curve::bounds() const {
   return box;
 }
 
+double Curve::mean_width() const {
+  double sum = 0.0, run = 0.0;
+  for (const WidthSegment& piece : widths) {
+    sum += 0.5 * (piece.from_width + piece.to_width) * (piece.to - piece.from);
+    run += piece.to - piece.from;
+  }
+  return run > 0.0 ? sum / run : 0.0;
+}
+
 double Curve::widest() const {
   double widest = 0.0;
   for (const WidthSegment& piece : widths) widest = std::max({widest, piece.from_width, piece.to_width});

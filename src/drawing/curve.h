@@ -39,7 +39,8 @@ struct Curve {
   double width_at(double place) const;
   /// The box of the curve without its width.
   Bounds2 bounds() const;
-  double widest() const;  ///< m
+  double widest() const;      ///< m
+  double mean_width() const;  ///< over its places, m
 
   bool operator==(const Curve&) const = default;
 };

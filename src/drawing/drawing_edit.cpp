@@ -9,6 +9,7 @@
 namespace icome::drawing {
 namespace {
 
+constexpr double kKilometresOfMetre = 1e-3;
 constexpr double kJoined = 1e-6;  // of the largest coordinate, or of the number of segments
 
 std::string complaint_about_segments(const std::vector<CubicBezier>& segments) {
@@ -19,7 +20,9 @@ std::string complaint_about_segments(const std::vector<CubicBezier>& segments) {
       largest = std::max(largest, point.cwiseAbs().maxCoeff());
     }
   }
-  if (largest > kLargestDrawing) return "a stroke has a place that is too far away";
+  if (largest > kLargestDrawing)
+    return fmt::format("a stroke reaches farther than {:g} km from the paper's corner",
+                       kLargestDrawing * kKilometresOfMetre);
   for (std::size_t i = 1; i < segments.size(); ++i) {
     if ((segments[i].points[0] - segments[i - 1].points[3]).norm() > kJoined * largest)
       return "the segments of a stroke do not join";
@@ -32,7 +35,8 @@ std::string complaint_about_widths(const Curve& curve) {
   double place = 0.0;
   for (const WidthSegment& piece : curve.widths) {
     for (const double width : {piece.from_width, piece.to_width})
-      if (!(width >= 0.0 && width <= kLargestDrawing)) return "a width is finite and not negative";
+      if (!(width >= 0.0 && width <= kLargestDrawing))
+        return fmt::format("a width is from 0 to {:g} km", kLargestDrawing * kKilometresOfMetre);
     if (!(std::abs(piece.from - place) <= slack && piece.to >= piece.from))
       return "the widths of a stroke do not join";
     place = piece.to;

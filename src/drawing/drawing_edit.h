@@ -59,8 +59,8 @@ using DrawingChange = std::variant<PutStroke, TakeStroke, ReplaceStroke, PutLaye
 /// back. Its parts are applied in order, all or none.
 using DrawingEdit = std::vector<DrawingChange>;
 
-/// The largest coordinate and width in a drawing, m.
-inline constexpr double kLargestDrawing = 1e6;
+/// The largest coordinate and width in a drawing, m. Files are read as far, too.
+inline constexpr double kLargestDrawing = 1e4;
 
 /// The edit that does one thing.
 DrawingEdit edit_of(DrawingChange change);

@@ -169,7 +169,8 @@ class Animate(unittest.TestCase):
         self.assertEqual([one["file"] for one in told["missing"]], ["square.svg"])
         (self.folder / "square.svg").unlink()
         self.assertIn("square.svg", animate(project).stderr)
-        animate(project, "--out", self.folder / "a.png", "--frames", "0")
+        animate(project, "--out", self.folder / "a.png", "--frames", "0", code=1)
+        self.assertTrue((self.folder / "a.png").is_file())
 
     def test_wrong_files_and_frames_get_a_sentence(self):
         project = self.small_project()
@@ -221,7 +222,10 @@ class Animate(unittest.TestCase):
 
     def test_a_sound_that_is_missing_is_told(self):
         script = self.script({"op": "sound", "file": "gone.wav"})
-        animate("new", "--apply", script, "--save", "sound.cutout", cwd=self.folder)
+        done = animate("new", "--apply", script, "--save", "sound.cutout", cwd=self.folder, code=1)
+        self.assertIn("edits.jsonl:1: gone.wav", done.stderr)
+        self.assertFalse((self.folder / "sound.cutout").exists())
+        (self.folder / "sound.cutout").write_text('cutout = 1\n[sound]\nfile = "gone.wav"\n')
         self.assertEqual([it["file"] for it in animate_json(self.folder / "sound.cutout")["missing"]], ["gone.wav"])
 
     def test_both_examples_are_whole(self):
@@ -355,8 +359,24 @@ class Record(unittest.TestCase):
                 recording.send_signal(end)
                 told = json.loads(recording.communicate(timeout=120)[0])
                 self.assertEqual(recording.returncode, 0)
+            self.assertFalse((self.folder / ".kept.cutout.journal").exists())
             self.assertGreater(told["recorded"]["frames"], 0)
             self.assertIn("keys", cell_in(self.folder / "kept.cutout", "a"))
+
+    def test_a_recording_outlives_a_kill(self):
+        with self.begin_recording(self.slow_source()) as recording:
+            journal = self.folder / ".kept.cutout.journal"
+            for _ in range(1200):
+                if journal.exists() and journal.read_text().count("\n") >= 3:
+                    break
+                time.sleep(0.05)
+            recording.kill()
+            recording.communicate()
+        told = animate_json(self.folder / "kept.cutout")
+        self.assertEqual(told["recovered"], 1)
+        animate(self.folder / "kept.cutout", "--save", self.folder / "recovered.cutout")
+        keys = cell_in(self.folder / "recovered.cutout", "a")["keys"]["x"]
+        self.assertGreater(keys[-1][0] - keys[0][0], 24)  # frames: two parts of a second each at least
 
     def test_a_source_that_breaks_off_is_told_and_what_came_is_kept(self):
         with self.begin_recording(self.slow_source("error-after=20")) as recording:

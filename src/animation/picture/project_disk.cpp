@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "animation/sound/sound_track.h"
 #include "cutout/source/frame_source.h"
 #include "io/file_ending.h"
 
@@ -44,7 +45,12 @@ ProjectDisk disk_of(CellPictures& pictures) {
             if (!size) return tl::unexpected(size.error());
             return Vector2(size->width, size->height);
           },
-          [&pictures](const std::string& folder) { return pictures_below(pictures.folder(), folder); }};
+          [&pictures](const std::string& folder) { return pictures_below(pictures.folder(), folder); },
+          [&pictures](const Sound& sound) -> base::Result<void> {
+            const auto track = read_track(pictures.folder(), sound, 0, pictures.options().reach);
+            if (!track) return tl::unexpected(track.error());
+            return {};
+          }};
 }
 
 }  // namespace icome::animation

@@ -17,10 +17,14 @@ using SizeOfPicture = std::function<base::Result<Vector2>(const std::string& fil
 /// The names of the pictures in a folder, relative to the project's, in the order of numbers in names.
 using PicturesIn = std::function<base::Result<std::vector<std::string>>(const std::string& folder)>;
 
+/// Fails with a sentence where a sound cannot be read.
+using CheckSound = std::function<base::Result<void>(const Sound& sound)>;
+
 /// The disk as tools see it; names are relative to the project's folder.
 struct ProjectDisk {
   SizeOfPicture size;
   PicturesIn pictures;
+  CheckSound check_sound;
 };
 
 /// A project while a tool is used on it.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "animation/script/tool_arguments.h"
 
@@ -77,8 +78,11 @@ base::Result<ProjectEdit> plan_path(Staging& staging, const Arguments& arguments
   if (!cell) return tl::unexpected(cell.error());
   const auto point = point_at(**cell, arguments, "at");
   if (!point) return tl::unexpected(point.error());
-  return put_constraint(staging, PathGuide{(*cell)->id, *point, arguments.points2("way"),
-                                           arguments.flag("closed"), arguments.flag("turns")});
+  const std::vector<Vector2> way = arguments.points2("way");
+  if (std::ranges::adjacent_find(way, std::ranges::not_equal_to()) == way.end())
+    return base::fail("'way' needs two places that are not the same");
+  return put_constraint(
+      staging, PathGuide{(*cell)->id, *point, way, arguments.flag("closed"), arguments.flag("turns")});
 }
 
 base::Result<ProjectEdit> plan_axis(Staging& staging, const Arguments& arguments) {

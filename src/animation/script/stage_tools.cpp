@@ -29,6 +29,9 @@ base::Result<ProjectEdit> plan_sound(Staging& staging, const Arguments& argument
   if (arguments.has("start")) sound.start = arguments.number("start");
   if (arguments.has("gain")) sound.gain = arguments.number("gain");
   if (sound.file.empty()) return base::fail("'file' is missing: there is no sound yet");
+  if (arguments.has("file")) {
+    if (const auto good = staging.disk.check_sound(sound); !good) return tl::unexpected(good.error());
+  }
   return edit_of(ChangeSound{sound});
 }
 

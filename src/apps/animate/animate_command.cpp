@@ -67,14 +67,16 @@ class AnimateRun {
       if (const int exit_code = apply(); exit_code != 0) return exit_code;
     }
     if (!options_.record.empty()) {
-      const auto recorded = record_hands(options_, *runner_, pictures_);
+      const auto recorded = record_hands(options_, *runner_, pictures_,
+                                         [this](const animation::ProjectEdit& part) { keep_part(part); });
       if (!recorded) return animate_failed(recorded.error().message);
       if (interrupted() && recorded->frames == 0) return kAnimateInterrupted;
       report_.recorded = *recorded;
     }
-    const bool good = report_.outcome.errors.empty() || options_.keep_going;
+    const bool good = may_save();
     if (good && !options_.save.empty()) {
       if (const auto saved = save(); !saved) return animate_failed(saved.error().message);
+      if (journal_) journal_->remove();
     }
     if (good && !options_.out.empty()) {
       if (const auto written = render(); !written) {
@@ -116,6 +118,29 @@ class AnimateRun {
     for (const EditError& error : report_.outcome.errors)
       tell(fmt::format("{}:{}: {}", options_.apply.string(), error.line, error.message));
     return 0;
+  }
+
+  bool may_save() const { return report_.outcome.errors.empty() || options_.keep_going; }
+
+  /// Keeps a part of the recording in the journal of the file that is to have all of it: what a crash leaves
+  /// is taken up when that file is read again. Before the first part the file is written as it is by then.
+  void keep_part(const animation::ProjectEdit& part) {
+    if (options_.save.empty() || !may_save() || cannot_keep_) return;
+    const auto kept = [&]() -> base::Result<void> {
+      if (!journal_) {
+        if (animation::ProjectJournal::is_open(options_.save))
+          return base::fail(options_.save.string() + " is open in another program.");
+        if (const auto saved = save(); !saved) return saved;
+        auto journal = animation::ProjectJournal::open(options_.save);
+        if (!journal) return tl::unexpected(journal.error());
+        journal_.emplace(std::move(*journal));
+      }
+      return journal_->add(part, animation::ProjectJournal::Line::Part);
+    }();
+    if (kept) return;
+    cannot_keep_ = true;
+    status_.clear();
+    note(kept.error().message + " The recording is not safe from a crash until it has ended.");
   }
 
   base::Result<void> save() {
@@ -162,7 +187,9 @@ class AnimateRun {
     }
     if (!report_.written)
       for (const animation::PictureProblem& problem : report_.missing) tell(problem.message);
-    const bool good = report_.outcome.errors.empty() && !(report_.recorded && report_.recorded->broke_off);
+    const bool is_whole = !report_.written || report_.missing.empty();
+    const bool good =
+        report_.outcome.errors.empty() && is_whole && !(report_.recorded && report_.recorded->broke_off);
     if (options_.json) {
       const int printed = print_answer(animate_json(options_, runner_->project(), report_));
       return good ? printed : kFailed;
@@ -181,6 +208,8 @@ class AnimateRun {
   std::filesystem::path folder_;  // from which names of files count
   animation::CellPictures pictures_;
   std::optional<animation::AnimationRunner> runner_;
+  std::optional<animation::ProjectJournal> journal_;  // of a recording that goes on
+  bool cannot_keep_ = false;                          // parts of the recording, which was told
   AnimateReport report_;
   StatusLine status_;
 };

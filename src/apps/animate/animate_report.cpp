@@ -7,7 +7,7 @@
 
 #include "animation/files/part_text.h"
 #include "animation/files/project_text.h"
-#include "apps/sketch/sketch_work.h"
+#include "apps/terminal.h"
 
 namespace icome::apps {
 namespace {

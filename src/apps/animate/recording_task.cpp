@@ -18,6 +18,8 @@
 namespace icome::apps {
 namespace {
 
+constexpr double kPartSeconds = 1.0;  // what a crash may take
+
 using animation::CellId;
 using animation::CellStates;
 using animation::Project;
@@ -60,8 +62,10 @@ std::size_t keys_in(const animation::ProjectEdit& edit) {
 class HandRecording {
  public:
   HandRecording(const AnimateOptions& options, Project project, cutout::KnownTriangles known,
-                animation::CellPictures& pictures, std::optional<animation::LayerId> layer)
+                animation::CellPictures& pictures, std::optional<animation::LayerId> layer,
+                const KeepPart& keep_part)
       : options_(options),
+        keep_part_(keep_part),
         project_(std::move(project)),
         known_(std::move(known)),
         pictures_(pictures),
@@ -92,6 +96,7 @@ class HandRecording {
       if (!goes_on) return tl::unexpected(goes_on.error());
       ++recorded.frames;
       if (!*goes_on) break;
+      keep_what_came((*next)->time);
     }
     status_.clear();
     recorded.dropped = (*source)->dropped();
@@ -101,6 +106,12 @@ class HandRecording {
   animation::ProjectEdit edit() const { return recording_.finish(options_.thin); }
 
  private:
+  void keep_what_came(double time) {
+    if (time < kept_until_ + kPartSeconds) return;
+    kept_until_ = time;
+    if (const animation::ProjectEdit part = recording_.next_part(); !part.empty()) keep_part_(part);
+  }
+
   /// False at the end of the animation, or of the time that was asked for.
   base::Result<bool> take(const cutout::Frame& frame, const TrackOptions& track) {
     if (!tracker_) {
@@ -108,7 +119,7 @@ class HandRecording {
       if (!view) return tl::unexpected(view.error());
       map_ = animation::TableMap::fitting(view->table_width(), view->table_height(), project_.stage);
       tracker_ = cutout::make_pose_tracker(known_, *view);
-      started_ = frame.time;
+      started_ = kept_until_ = frame.time;
     }
     complaints_.look_at(frame);
     const auto seen = tracker_->see(frame.view(), frame.time);
@@ -145,6 +156,7 @@ class HandRecording {
   }
 
   const AnimateOptions& options_;
+  const KeepPart& keep_part_;
   Project project_;
   cutout::KnownTriangles known_;
   animation::CellPictures& pictures_;
@@ -153,7 +165,8 @@ class HandRecording {
   animation::TableMap map_;
   CellStates touched_;  // by hands, or by what they moved
   std::unique_ptr<cutout::Tracker> tracker_;
-  double started_ = 0;  // s, time of the first frame
+  double started_ = 0;     // s, time of the first frame
+  double kept_until_ = 0;  // s, time of the last frame that is in a part
   std::uint64_t damaged_ = 0;
   FrameComplaints complaints_;
   StatusLine status_;
@@ -162,7 +175,7 @@ class HandRecording {
 }  // namespace
 
 base::Result<RecordedHands> record_hands(const AnimateOptions& options, animation::AnimationRunner& runner,
-                                         animation::CellPictures& pictures) {
+                                         animation::CellPictures& pictures, const KeepPart& keep_part) {
   if (options.known.empty())
     return base::fail("--known is missing: the list of triangles that lie on the table");
   auto known = cutout::read_known_triangles(options.known);
@@ -180,7 +193,7 @@ base::Result<RecordedHands> record_hands(const AnimateOptions& options, animatio
         on != nullptr && (on->locked || !on->visible))
       tell(fmt::format("triangle '{}' moves nothing: layer '{}' is {}", mapping.triangle, on->name,
                        on->locked ? "locked" : "hidden"));
-  HandRecording recording(options, std::move(*project), std::move(*known), pictures, layer);
+  HandRecording recording(options, std::move(*project), std::move(*known), pictures, layer, keep_part);
   auto recorded = recording.run();
   if (!recorded) return recorded;
   const animation::ProjectEdit edit = recording.edit();

@@ -121,7 +121,8 @@ int run_sketch_edit(const SketchOptions& options) {
   });
   status.clear();
   if (outcome.stopped) return kSketchInterrupted;
-  const bool good = outcome.errors.empty() || options.keep_going;
+  // Where no line was right there is nothing to keep.
+  const bool good = outcome.errors.empty() || (options.keep_going && outcome.operations > 0);
   for (const EditError& error : outcome.errors)
     tell(fmt::format("{}:{}: {}", options.apply.string(), error.line, error.message));
   if (good) {

@@ -102,7 +102,8 @@ constexpr const char* kFeelNotes =
     "the\n"
     "servo renders as it would for a person: a spring and a damper, friction and a grain. The hand presses "
     "so\n"
-    "that the force is 2 N at full pressure. What is drawn is where the pen was.\n"
+    "that it is pushed with 2 N at full pressure, as far as the device can. What is drawn is where the pen "
+    "was.\n"
     "\n"
     "Papers: paper, blackboard, canvas and glass. An eraser rubs 1.8 times as hard.\n"
     "\n"
@@ -206,10 +207,10 @@ void add_sketch(CLI::App& app, SketchOptions& options) {
       add_task(sketch, "edit", "Change a drawing by a script: each line is a tool with its parameters",
                kEditNotes, options);
   edit.add_option("IN", options.in, "new, an SVG file, a design with a drawing, or a recording of a pen")
-      ->type_name("");
+      ->type_name("REQUIRED");
   auto* const apply = edit.add_option("--apply", options.apply, "Tools, one a line; - for standard input");
-  apply->type_name("EDITS.jsonl");
-  auto* const out = edit.add_option("--out", options.out, "Write the drawing")->type_name("OUT");
+  apply->type_name("EDITS.jsonl REQUIRED");
+  auto* const out = edit.add_option("--out", options.out, "Write the drawing")->type_name("OUT REQUIRED");
   edit.add_flag("--keep-going", options.keep_going, "Go on after lines that are wrong");
   add_object_option(edit, options);
   add_fit_options(edit, options.fit);

@@ -36,10 +36,6 @@ std::size_t count_segments(const drawing::Drawing& drawing) {
   return segments;
 }
 
-std::string how_many(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 std::vector<std::string> notes_of(const DesignDrawing& read) {
   std::vector<std::string> notes;
   for (const files::Remark& remark : read.design.remarks) notes.push_back(remark.text);

@@ -24,8 +24,6 @@ drawing::SvgLines svg_lines(const SketchOptions& options);
 sketch::PictureOptions picture_options(const SketchOptions& options);
 
 std::size_t count_segments(const drawing::Drawing& drawing);
-/// "1 stroke", "2 strokes".
-std::string how_many(std::size_t count, const char* what);
 
 /// The remarks of the reader of the design.
 std::vector<std::string> notes_of(const DesignDrawing& read);

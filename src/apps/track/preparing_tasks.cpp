@@ -139,9 +139,9 @@ int run_track_colours(const TrackOptions& options) {
                        {"triangle_rgb", rgb(colours.triangle_bgr)}};
     return print_answer(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   }
-  return print_answer(fmt::format("{}: the table is {}, the triangle {}, by {} frames\n",
-                                  options.view.string(), rgb_of(colours.table_bgr),
-                                  rgb_of(colours.triangle_bgr), measured->size()));
+  return print_answer(fmt::format("{}: the table is {}, the triangle {}, by {}\n", options.view.string(),
+                                  rgb_of(colours.table_bgr), rgb_of(colours.triangle_bgr),
+                                  how_many(measured->size(), "frame")));
 }
 
 int run_track_calibrate(const TrackOptions& options) {
@@ -209,10 +209,9 @@ int run_track_learn(const TrackOptions& options) {
   file->write(text);
   if (const auto written = file->finish(); !written) return track_failed(written.error());
   for (const std::string& warning : cutout::warnings_of(known)) tell(warning);
-  return print_answer(
-      fmt::format("{}: '{}' has base angles of {:.2f} degrees and a height of {:.2f} mm, by {} frames\n",
-                  options.known.string(), options.id, learnt.base_angle * kRadianInDegrees, learnt.height,
-                  measured->size()));
+  return print_answer(fmt::format(
+      "{}: '{}' has base angles of {:.2f} degrees and a height of {:.2f} mm, by {}\n", options.known.string(),
+      options.id, learnt.base_angle * kRadianInDegrees, learnt.height, how_many(measured->size(), "frame")));
 }
 
 }  // namespace icome::apps

@@ -288,10 +288,10 @@ class TrackRun {
     std::vector<double> times = totals_.times;
     std::ranges::sort(times);
     text += fmt::format(
-        "{} frames, {} dropped, {} damaged; {:.2f} ms to find triangles in the middle frame, {:.2f} ms in "
+        "{}, {} dropped, {} damaged; {:.2f} ms to find triangles in the middle frame, {:.2f} ms in "
         "the "
         "slowest of 100\n",
-        totals_.frames, source_->dropped(), source_->damaged(), times[times.size() / 2],
+        how_many(totals_.frames, "frame"), source_->dropped(), source_->damaged(), times[times.size() / 2],
         times[std::min(times.size() - 1, times.size() * 99 / 100)]);
     if (judge_)
       text += fmt::format(

@@ -14,8 +14,10 @@ namespace icome::drawing {
 // On the <g> of a layer, directly below the root:
 //   icome:layer    its name, also where it is empty
 //   icome:locked   "true" or "false" (so where it is missing)
-//   icome:hidden   "true" or "false"
-// On the <path> of a stroke. With icome:curve, what the path itself draws (d, style) is ignored:
+// and what Inkscape has for the same: inkscape:label, sodipodi:insensitive and display, which count where
+// they differ, as another program has changed them.
+//
+// On the <path> of a stroke. With icome:curve, what the path itself draws (d) is ignored:
 //   icome:curve    path data of the centre line: "M x,y C x,y x,y x,y C ...", absolute, in mm of the paper,
 //                  the three points of each further segment behind a C of their own or not
 //   icome:widths   "t0,w0,t1,w1 t0,w0,t1,w1 ...": places along the curve (0 to the number of segments) and
@@ -27,21 +29,23 @@ namespace icome::drawing {
 //   icome:opacity  0 to 1
 //   icome:drawn    drawn_mark() of the path's d as it is written. Where d has another one when the file is
 //                  read, another program has changed the path, and what it draws counts after all.
-// Transforms that another program has put on such a path or around it move its icome:curve, too: a writer
-// writes none.
-// Other elements in the <g>, or a <path> marked icome:curve and other paths after it, are independent: a
-// reader makes a stroke of each <path>, <rect> and so on. What a writer adds only for show has the attribute
+// Transforms that another program has put on such a path or around it, and a viewBox that it has changed,
+// move its icome:curve, too: a writer writes none, and a viewBox in mm. Where icome:drawn is there, colours,
+// opacity, and width and ends of centre lines that differ from icome:... by more than the file's rounding
+// were changed by another program, and count as well. Other elements in the <g>, or a <path> marked
+// icome:curve and other paths after it, are independent: a reader makes a stroke of each <path>, <rect> and
+// so on. What a writer adds only for show has the attribute
 //   icome:shown    "only": not read
 
 inline constexpr std::string_view kSvgNamespace = "http://www.w3.org/2000/svg";
 inline constexpr std::string_view kXlinkNamespace = "http://www.w3.org/1999/xlink";
 inline constexpr std::string_view kInkscapeNamespace = "http://www.inkscape.org/namespaces/inkscape";
+inline constexpr std::string_view kSodipodiNamespace = "http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd";
 inline constexpr std::string_view kSketchNamespace = "https://icome.org/sketch";
 
 inline constexpr std::string_view kSizeAttribute = "size";
 inline constexpr std::string_view kLayerAttribute = "layer";
 inline constexpr std::string_view kLockedAttribute = "locked";
-inline constexpr std::string_view kHiddenAttribute = "hidden";
 inline constexpr std::string_view kCurveAttribute = "curve";
 inline constexpr std::string_view kWidthsAttribute = "widths";
 inline constexpr std::string_view kClosedAttribute = "closed";

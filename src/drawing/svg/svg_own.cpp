@@ -14,8 +14,8 @@
 namespace icome::drawing {
 namespace {
 
-/// m between the end of a closed curve and its start, at most: the numbers of a file that other programs
-/// have rounded.
+/// Between the end of a closed curve and its start, at most: m, and of the coordinates where those are
+/// larger. Edits leave that, and the numbers of a file that other programs have rounded.
 constexpr double kClosedGap = 1e-9;
 
 /// The words of own data, between blanks, commas and the letters M and C.
@@ -135,7 +135,7 @@ base::Result<void> read_own_look(const XmlText& xml, const XmlNode& path, Stroke
 base::Result<void> close_own(Curve& curve) {
   const Vector2 start = curve.segments.front().points[0];
   Vector2& end = curve.segments.back().points[3];
-  if (!((end - start).norm() <= kClosedGap))
+  if (!((end - start).norm() <= kClosedGap * std::max(1.0, start.cwiseAbs().maxCoeff())))
     return base::fail("icome:closed is true, but the end of icome:curve is not its start");
   end = start;
   curve.closed = true;
@@ -158,6 +158,10 @@ base::Result<std::optional<Stroke>> own_stroke_of(const XmlText& xml, const XmlN
     if (const auto closed = close_own(stroke.curve); !closed) return tl::unexpected(closed.error());
   if (const auto read = read_own_look(xml, path, stroke); !read) return tl::unexpected(read.error());
   return stroke;
+}
+
+bool has_drawn_mark(const XmlText& xml, const XmlNode& path) {
+  return !own_text(xml, path, kDrawnAttribute).empty();
 }
 
 bool was_redrawn(const XmlText& xml, const XmlNode& path) {

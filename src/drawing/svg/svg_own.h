@@ -12,6 +12,9 @@ namespace icome::drawing {
 /// none.
 base::Result<std::optional<Stroke>> own_stroke_of(const XmlText& xml, const XmlNode& path);
 
+/// Did the project write how the path looks, too? People may write its data by hand.
+bool has_drawn_mark(const XmlText& xml, const XmlNode& path);
+
 /// Did another program change what the path draws since the project wrote it?
 bool was_redrawn(const XmlText& xml, const XmlNode& path);
 

@@ -194,6 +194,7 @@ void SvgPathBuilder::append(const CubicBezier& segment) {
 void SvgPathBuilder::move_to(const Vector2& to) {
   start_ = current_ = to;
   is_drawing_ = false;
+  is_moved_ = true;
 }
 
 void SvgPathBuilder::line_to(const Vector2& to) { append(CubicBezier::line(current_, to)); }
@@ -224,12 +225,15 @@ void SvgPathBuilder::arc_to(const Vector2& radii, double turn, bool large, bool 
 }
 
 void SvgPathBuilder::close() {
+  // A place that is closed at once is a dot (SVG 2, 11.4).
+  if (!is_drawing_ && is_moved_) line_to(start_);
   if (!is_drawing_) return;
   const double size = std::max(start_.cwiseAbs().maxCoeff(), current_.cwiseAbs().maxCoeff());
   if ((current_ - start_).norm() > kSamePlace * size) line_to(start_);
   subpaths_.back().segments.back().points[3] = start_;
   subpaths_.back().closed = true;
   move_to(start_);
+  is_moved_ = false;
 }
 
 std::vector<SvgSubpath> SvgPathBuilder::take() { return std::move(subpaths_); }

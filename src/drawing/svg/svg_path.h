@@ -39,6 +39,7 @@ class SvgPathBuilder {
 
   std::vector<SvgSubpath> subpaths_;
   Vector2 start_ = Vector2::Zero(), current_ = Vector2::Zero();
+  bool is_moved_ = false;    // to where nothing was drawn yet
   bool is_drawing_ = false;  // the last subpath goes on
   std::size_t segments_ = 0;
 };

@@ -10,11 +10,13 @@
 #include <utility>
 
 #include "base/shown_text.h"
+#include "drawing/drawing_edit.h"
 #include "drawing/outline/filled_loops.h"
 #include "drawing/svg/svg_frame.h"
 #include "drawing/svg/svg_names.h"
 #include "drawing/svg/svg_notes.h"
 #include "drawing/svg/svg_own.h"
+#include "drawing/svg/svg_repaint.h"
 #include "drawing/svg/svg_shapes.h"
 #include "drawing/svg/svg_sheet.h"
 #include "drawing/svg/svg_style.h"
@@ -31,8 +33,9 @@ constexpr std::size_t kMostSvgElements = 2'000'000;  // drawn, through <use> too
 constexpr std::size_t kMostSvgBytes = 128U << 20U;   // of attributes, likewise
 constexpr std::size_t kBytesForALook = 32;           // at a rule of a style sheet: the time that it costs
 constexpr std::size_t kMostSvgSegments = 10'000'000;
-constexpr double kFarthestSvgPoint = 1e4;  // m
-constexpr double kEvenScale = 1e-3;        // relative difference of the scales that widths do not show
+constexpr double kSameSize = 1e-6;  // relative: programs round it
+constexpr double kMmOfMetre = 1e3;
+constexpr double kEvenScale = 1e-3;  // relative difference of the scales that widths do not show
 
 /// Elements that say nothing about lines, or are looked at where something refers to them.
 constexpr std::array<std::string_view, 15> kSilentElements = {
@@ -61,6 +64,7 @@ class SvgReader {
   bool is_svg_name(const XmlNode& node) const;
   std::string_view reference_of(const XmlNode& use) const;
   std::string layer_name_of(const XmlNode& group) const;
+  bool is_locked(const XmlNode& group) const;
   bool is_marked_layer(const XmlNode& group) const;
   void read_root_frame(SvgContext& context);
   Done read_top(const XmlNode& node, const SvgContext& root);
@@ -73,6 +77,10 @@ class SvgReader {
   Done read_nested(const XmlNode& node, SvgContext context, const Vector2& size);
   SvgViewport viewport_of(const XmlNode& node, const Vector2& size);
   Done read_shape(const XmlNode& node, const SvgContext& context);
+  bool is_only_shown(const XmlNode& node) const;
+  XmlNode fill_below(const XmlNode& path) const;
+  std::optional<Stroke> own_stroke_in(const XmlNode& path, const SvgStyle& seen);
+  void repaint_own(const XmlNode& path, const SvgContext& context, Stroke& stroke);
   Done read_own(const XmlNode& node, Stroke stroke, const SvgContext& context);
   Done charge(const XmlNode& node);
   bool enter(const XmlNode& node, const SvgContext& around, SvgContext& context);
@@ -83,6 +91,7 @@ class SvgReader {
   void begin_layer(std::string name, bool is_loose);
   bool is_skipped(const XmlNode& node);
   double line_width(const SvgContext& context) const;
+  void tell_group_opacity(const XmlNode& group);
   void tell_uneven_scale(const XmlNode& node, const SvgContext& context);
 
   const XmlText& xml_;
@@ -91,8 +100,10 @@ class SvgReader {
   Drawing drawing_;
   std::unordered_map<std::string_view, XmlNode> ids_;
   Eigen::Affine2d metres_from_root_ = Eigen::Affine2d::Identity();
-  std::vector<XmlNode> shown_;   // by <use>, the outermost first
-  bool is_loose_layer_ = false;  // the last layer takes what lies outside of groups
+  Eigen::Affine2d root_from_own_ =
+      Eigen::Affine2d::Identity();  // own: m on the paper as the project wrote it
+  std::vector<XmlNode> shown_;      // by <use>, the outermost first
+  bool is_loose_layer_ = false;     // the last layer takes what lies outside of groups
   std::size_t loose_layers_ = 0;
   std::size_t elements_ = 0, bytes_ = 0, segments_ = 0;
 };
@@ -136,11 +147,19 @@ std::string_view SvgReader::reference_of(const XmlNode& use) const {
   return xml_.attribute_of(use, kXlinkNamespace, "href").value();
 }
 
-/// The name of a layer: ours, Inkscape's, the id; empty where there is none.
+/// The name of a layer: Inkscape's, which ours has as well unless it was changed there; ours, the id; empty
+/// where there is none.
 std::string SvgReader::layer_name_of(const XmlNode& group) const {
+  if (const auto label = xml_.attribute_of(group, kInkscapeNamespace, "label")) return label.value();
   if (const auto own = xml_.attribute_of(group, kSketchNamespace, kLayerAttribute)) return own.value();
-  const XmlAttribute label = xml_.attribute_of(group, kInkscapeNamespace, "label");
-  return label ? label.value() : group.attribute("id").value();
+  return group.attribute("id").value();
+}
+
+/// Inkscape takes the attribute away from what is no longer locked, so that it counts wherever it is written.
+bool SvgReader::is_locked(const XmlNode& group) const {
+  if (!xml_.declares(kSodipodiNamespace)) return own_flag_of(xml_, group, kLockedAttribute);
+  const XmlAttribute insensitive = xml_.attribute_of(group, kSodipodiNamespace, "insensitive");
+  return insensitive.value() == std::string_view("true");
 }
 
 /// Is the group a layer also where it is empty?
@@ -197,10 +216,10 @@ bool SvgReader::enter(const XmlNode& node, const SvgContext& around, SvgContext&
 SvgReader::Done SvgReader::add(const XmlNode& node, Stroke stroke) {
   for (const CubicBezier& segment : stroke.curve.segments)
     for (const Vector2& point : segment.points)
-      if (!(point.cwiseAbs().maxCoeff() <= kFarthestSvgPoint)) {
+      if (!(point.cwiseAbs().maxCoeff() <= kLargestDrawing)) {
         notes_.tell(node,
                     fmt::format("a line that reaches farther than {:g} m from the paper's corner is skipped",
-                                kFarthestSvgPoint));
+                                kLargestDrawing));
         return {};
       }
   segments_ += stroke.curve.segments.size();
@@ -213,11 +232,13 @@ SvgReader::Done SvgReader::add(const XmlNode& node, Stroke stroke) {
 
 /// The width of a line in m.
 double SvgReader::line_width(const SvgContext& context) const {
+  if (context.style.is_width_fixed) return context.style.line_width * kMetresOfSvgUnit;
   return context.style.line_width *
          std::sqrt(std::abs((metres_from_root_ * context.root_from_user).linear().determinant()));
 }
 
 void SvgReader::tell_uneven_scale(const XmlNode& node, const SvgContext& context) {
+  if (context.style.is_width_fixed) return;
   const Eigen::Matrix2d linear = (metres_from_root_ * context.root_from_user).linear();
   const double one = linear.col(0).norm(), other = linear.col(1).norm();
   const double turned = std::abs(linear.col(0).dot(linear.col(1)));
@@ -246,8 +267,8 @@ SvgReader::Done SvgReader::add_stroke(const XmlNode& node, Stroke stroke, bool h
   }
   tell_uneven_scale(node, context);
   const double width = line_width(context);
-  if (!std::isfinite(width) || width > kFarthestSvgPoint) {
-    notes_.tell(node, fmt::format("a line that is wider than {:g} m is skipped", kFarthestSvgPoint));
+  if (!std::isfinite(width) || width > kLargestDrawing) {
+    notes_.tell(node, fmt::format("a line that is wider than {:g} m is skipped", kLargestDrawing));
     return {};
   }
   stroke.curve.widths = {{0.0, width, stroke.curve.end(), width}};
@@ -288,23 +309,76 @@ SvgReader::Done SvgReader::add_filled(const XmlNode& node, const std::vector<Cur
   return {};
 }
 
+/// Is the transform none but for the rounding of frames?
+bool is_at_rest(const Eigen::Affine2d& transform, double size) {
+  constexpr double kFrameRounding = 1e-9;
+  return (transform.linear() - Eigen::Matrix2d::Identity()).cwiseAbs().maxCoeff() <= kFrameRounding &&
+         transform.translation().cwiseAbs().maxCoeff() <= kFrameRounding * std::max(1.0, size);
+}
+
+/// The path with a stroke's fill that the project writes below its outline; none where there is none.
+XmlNode SvgReader::fill_below(const XmlNode& path) const {
+  const XmlNode before = path.element_before();
+  return before && is_only_shown(before) ? before : XmlNode();
+}
+
+void SvgReader::repaint_own(const XmlNode& path, const SvgContext& context, Stroke& stroke) {
+  if (!has_drawn_mark(xml_, path)) return;
+  const XmlNode below = fill_below(path);
+  SvgStyle fill;
+  if (below) fill = style_of(below, context, notes_);
+  for (const std::string& change : take_repaint(context.style, below ? &fill : nullptr, stroke))
+    notes_.tell(path, "another program has changed " + change + " of a stroke of ICOME, which is taken");
+}
+
 SvgReader::Done SvgReader::read_own(const XmlNode& node, Stroke stroke, const SvgContext& context) {
-  if (context.root_from_user.matrix() == Eigen::Matrix3d::Identity()) return add(node, std::move(stroke));
+  repaint_own(node, context, stroke);
+  const Eigen::Affine2d moved = metres_from_root_ * context.root_from_user * root_from_own_;
+  if (is_at_rest(moved, drawing_.size.maxCoeff())) return add(node, std::move(stroke));
   notes_.tell(node, "a stroke of ICOME was moved by another program");
-  stroke.curve =
-      transformed(stroke.curve, metres_from_root_ * context.root_from_user * metres_from_root_.inverse());
+  stroke.curve = transformed(stroke.curve, moved);
   return add(node, std::move(stroke));
 }
 
-SvgReader::Done SvgReader::read_shape(const XmlNode& node, const SvgContext& context) {
-  const bool is_redrawn = was_redrawn(xml_, node);
-  if (is_redrawn)
-    notes_.tell(node, "a stroke of ICOME was drawn anew by another program: its outline is taken");
-  if (!is_redrawn) {
-    auto own = own_stroke_of(xml_, node);
-    if (!own) notes_.tell(node, own.error().message + ": what the path draws is taken");
-    if (own && *own) return read_own(node, std::move(**own), context);
+/// A stroke without a line is written as a path that draws its fill or nothing.
+bool has_lost_widths(const Stroke& own, const SvgStyle& seen, const XmlNode& path) {
+  if (!own.curve.widths.empty()) return false;
+  return seen.line || (seen.fill && !own.fill && path.attribute("d").value() != std::string_view());
+}
+
+/// Has another program made it invisible?
+bool has_lost_paint(const Stroke& own, const SvgStyle& seen) {
+  constexpr double kInvisible = 1e-8;  // m, what a width in the file may be rounded to nothing from
+  return !seen.line && !seen.fill && (own.fill || own.curve.widest() > kInvisible);
+}
+
+bool is_dot(const SvgSubpath& subpath) {
+  const Vector2& place = subpath.segments.front().points[0];
+  return std::ranges::all_of(subpath.segments, [&](const CubicBezier& segment) {
+    return std::ranges::all_of(segment.points, [&](const Vector2& point) { return point == place; });
+  });
+}
+
+/// The stroke that the project wrote into a path, if that counts: tells why it does not, unless the path
+/// shows nothing any more, which is told as that of any other shape.
+std::optional<Stroke> SvgReader::own_stroke_in(const XmlNode& path, const SvgStyle& seen) {
+  if (was_redrawn(xml_, path)) {
+    notes_.tell(path, "a stroke of ICOME was drawn anew by another program: its outline is taken");
+    return std::nullopt;
   }
+  auto own = own_stroke_of(xml_, path);
+  if (own && *own && has_drawn_mark(xml_, path)) {
+    if (!seen.visible || has_lost_paint(**own, seen)) return std::nullopt;
+    if (has_lost_widths(**own, seen, path))
+      own = base::fail("icome:widths is empty, but the path draws a line");
+  }
+  if (own) return std::move(*own);
+  notes_.tell(path, own.error().message + ": what the path draws is taken");
+  return std::nullopt;
+}
+
+SvgReader::Done SvgReader::read_shape(const XmlNode& node, const SvgContext& context) {
+  if (auto own = own_stroke_in(node, context.style)) return read_own(node, std::move(*own), context);
   if (!context.style.visible) {
     notes_.tell(node, "a hidden element is skipped");
     return {};
@@ -316,7 +390,10 @@ SvgReader::Done SvgReader::read_shape(const XmlNode& node, const SvgContext& con
   SvgShape shape = svg_shape_of(node, context.whole);
   if (!shape.fault.empty()) notes_.tell(node, shape.fault);
   std::vector<Curve> lines;
+  const bool has_round_line = context.style.line && context.style.ends == CurveEnds::Round;
   for (SvgSubpath& subpath : shape.subpaths) {
+    // Only round ends make a dot of a line without length (SVG 2, 11.4).
+    if (!has_round_line && is_dot(subpath)) continue;
     Curve line;
     line.segments = std::move(subpath.segments);
     line.closed = subpath.closed;
@@ -395,17 +472,31 @@ SvgReader::Done SvgReader::read_inside(const XmlNode& node, const SvgContext& co
   return {};
 }
 
+bool SvgReader::is_only_shown(const XmlNode& node) const {
+  return xml_.attribute_of(node, kSketchNamespace, kShownAttribute).value() == std::string_view("only");
+}
+
 /// Is it nothing that is drawn? Tells what people would miss.
 bool SvgReader::is_skipped(const XmlNode& node) {
   if (!node.is_element() || !is_svg_name(node)) return true;
-  if (xml_.attribute_of(node, kSketchNamespace, kShownAttribute).value() == std::string_view("only"))
-    return true;
+  if (is_only_shown(node)) return true;
   const std::string_view name = local_name(node.name());
   if (std::ranges::count(kSilentElements, name) > 0) return true;
   constexpr std::array<std::string_view, 5> kContainers = {"g", "a", "svg", "use", "switch"};
   if (is_svg_shape(name) || std::ranges::count(kContainers, name) > 0) return false;
   notes_.tell(node, fmt::format("<{}> is skipped", base::shown_text(name)));
   return true;
+}
+
+/// A translucent group is seen as one, which lines of a drawing are not.
+void SvgReader::tell_group_opacity(const XmlNode& group) {
+  std::size_t shown = 0;
+  for (const XmlNode child : group.children()) {
+    if (is_only_shown(child)) return;
+    shown += child.is_element() ? 1 : 0;
+  }
+  if (shown > 1)
+    notes_.tell(group, "the opacity of a group is that of each of its lines, which show through one another");
 }
 
 SvgReader::Done SvgReader::read_element(const XmlNode& node, const SvgContext& around, bool is_layer) {
@@ -421,6 +512,7 @@ SvgReader::Done SvgReader::read_element(const XmlNode& node, const SvgContext& a
   if (is_svg_shape(name)) return read_shape(node, context);
   if (name == "use") return read_use(node, std::move(context));
   if (name == "switch") return read_switch(node, context);
+  if (name == "g" && context.style.opacity < around.style.opacity) tell_group_opacity(node);
   if (name != "svg") return read_inside(node, context);
   const auto length = [&](const char* side, double whole, double otherwise) {
     return parse_svg_length(node.attribute(side).value(), whole).value_or(otherwise);
@@ -439,10 +531,9 @@ SvgReader::Done SvgReader::read_layer(const XmlNode& group, const SvgContext& ro
   const bool was_loose = is_loose_layer_;
   begin_layer(std::move(name), false);
   SvgNotes unheard(xml_);
-  const bool is_shown = style_of(group, root, unheard).displayed;
   const std::size_t index = drawing_.layers.size() - 1;
-  drawing_.layers[index].visible = is_shown && !own_flag_of(xml_, group, kHiddenAttribute);
-  drawing_.layers[index].locked = own_flag_of(xml_, group, kLockedAttribute);
+  drawing_.layers[index].visible = style_of(group, root, unheard).displayed;
+  drawing_.layers[index].locked = is_locked(group);
   if (const auto read = read_element(group, root, true); !read) return read;
   if (!drawing_.layers[index].strokes.empty() || is_marked_layer(group)) return {};
   drawing_.layers.pop_back();
@@ -463,17 +554,23 @@ SvgReader::Done SvgReader::read_top(const XmlNode& node, const SvgContext& root)
   return {};
 }
 
+bool is_absolute_length(std::string_view text) {
+  return parse_svg_length(text, 0.0).has_value() && text.find('%') == std::string_view::npos;
+}
+
 /// Paper and units: width, height and viewBox of the outermost element.
 void SvgReader::read_root_frame(SvgContext& context) {
   const XmlNode root = xml_.root();
   const Vector2 paper = drawing_.size / kMetresOfSvgUnit;  // where the file tells none
   const Vector2 whole = svg_view_box_size(root).value_or(paper);
   const auto is_length = [](double units) {
-    return units > 0.0 && units * kMetresOfSvgUnit <= kFarthestSvgPoint;
+    return units > 0.0 && units * kMetresOfSvgUnit <= kLargestDrawing;
   };
   Vector2 size = whole.unaryExpr(is_length).all() ? whole : paper;
+  bool has_frame = bool(svg_view_box_size(root));
   for (int i = 0; i < 2; ++i) {
     const XmlAttribute side = root.attribute(i == 0 ? "width" : "height");
+    has_frame = has_frame && is_absolute_length(side.value());
     if (!side || std::string_view(side.value()) == "auto") continue;
     const auto length = parse_svg_length(side.value(), whole[i]);
     if (length && is_length(*length))
@@ -482,12 +579,21 @@ void SvgReader::read_root_frame(SvgContext& context) {
       notes_.tell(
           root,
           fmt::format("the {} {} is no length in a unit of SVG above 0 and up to {:g} m, and is left out",
-                      side.name(), quoted_value(side.value()), kFarthestSvgPoint));
+                      side.name(), quoted_value(side.value()), kLargestDrawing));
   }
   const SvgViewport viewport = viewport_of(root, size);
   metres_from_root_ = Eigen::Scaling(kMetresOfSvgUnit) * viewport.outer_from_inner;
   context.whole = viewport.size;
-  drawing_.size = own_size_of(xml_).value_or(Vector2(size * kMetresOfSvgUnit));
+  drawing_.size = size * kMetresOfSvgUnit;
+  // Without a frame of its own the file does not say that anybody has changed ours.
+  root_from_own_ = has_frame ? Eigen::Affine2d(Eigen::Scaling(kMmOfMetre)) : metres_from_root_.inverse();
+  const auto own_size = own_size_of(xml_);
+  if (!own_size) return;
+  const double apart = (drawing_.size - *own_size).cwiseQuotient(*own_size).cwiseAbs().maxCoeff();
+  if (has_frame && apart > kSameSize)
+    notes_.tell(root, "another program has changed the paper's size, which is taken");
+  else
+    drawing_.size = *own_size;
 }
 
 base::Result<DrawingRead> SvgReader::read() {

@@ -117,6 +117,8 @@ void StyleSetter::set_rest(std::string_view name, std::string_view value) {
     if (value == "square") notes_.tell(node_, "square ends of lines are taken as flat");
   } else if (name == "visibility" && value != "inherit") {
     style_.visible = value == "visible";
+  } else if (name == "vector-effect") {
+    style_.is_width_fixed = value == "non-scaling-stroke";
   } else if (name == "display") {
     style_.displayed = value != "none";
   } else if (name == "fill-rule" && value != "inherit") {
@@ -173,6 +175,7 @@ SvgStyle svg_style_of(const XmlNode& node, const SvgStyle& around,
                       std::span<const std::string_view> declarations, double whole, SvgNotes& notes) {
   SvgStyle style = around;
   style.displayed = true;
+  style.is_width_fixed = false;
   StyleSetter setter(style, around, whole, node, notes);
   const std::string_view own = node.attribute("style").value();
   const auto for_each_property = [&](const auto& use) {

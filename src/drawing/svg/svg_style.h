@@ -20,6 +20,7 @@ struct SvgStyle {
   double opacity = 1.0;  ///< of the element and all around it
   CurveEnds ends = CurveEnds::Flat;
   FillRule rule = FillRule::NonZero;
+  bool is_width_fixed = false;  ///< on the paper, whatever transforms there are, for the element alone
   bool visible = true;
   bool displayed = true;  ///< false for the element with display:none alone
 };

@@ -133,16 +133,6 @@ std::string widths_text(const std::vector<WidthSegment>& widths) {
   return text;
 }
 
-/// The mean by length of the places, m.
-double mean_width(const Curve& curve) {
-  double sum = 0.0, run = 0.0;
-  for (const WidthSegment& piece : curve.widths) {
-    sum += 0.5 * (piece.from_width + piece.to_width) * (piece.to - piece.from);
-    run += piece.to - piece.from;
-  }
-  return run > 0.0 ? sum / run : 0.0;
-}
-
 /// Writes one file, element by element.
 class SvgWriter {
  public:
@@ -152,6 +142,7 @@ class SvgWriter {
     text_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg";
     attribute("xmlns", kSvgNamespace);
     attribute("xmlns:inkscape", kInkscapeNamespace);
+    attribute("xmlns:sodipodi", kSodipodiNamespace);
     attribute("xmlns:icome", kSketchNamespace);
     std::string width, height;
     append_mm(width, drawing.size.x());
@@ -183,7 +174,7 @@ class SvgWriter {
     attribute("inkscape:label", name);
     own(kLayerAttribute, name);
     own_flag(kLockedAttribute, layer.locked);
-    own_flag(kHiddenAttribute, !layer.visible);
+    if (layer.locked) attribute("sodipodi:insensitive", "true");
     if (!layer.visible) attribute("display", "none");
     text_ += ">\n";
     for (const StrokePointer& stroke : layer.strokes) add(*stroke);
@@ -223,7 +214,7 @@ class SvgWriter {
     std::string data = cubics_data(stroke.curve.segments, append_seen_mm);
     if (stroke.curve.closed) data += " Z";
     std::string width;
-    append_seen_mm(width, mean_width(stroke.curve));
+    append_seen_mm(width, stroke.curve.mean_width());
     text_ += "  <path";
     attribute("d", data);
     attribute("fill", stroke.fill ? css_text(*stroke.fill) : "none");

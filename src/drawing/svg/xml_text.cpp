@@ -29,6 +29,11 @@ XmlNode XmlNode::first_child() const {
   return XmlNode(pugi::xml_node(node_).first_child().internal_object());
 }
 XmlNode XmlNode::next() const { return XmlNode(pugi::xml_node(node_).next_sibling().internal_object()); }
+XmlNode XmlNode::element_before() const {
+  pugi::xml_node before = pugi::xml_node(node_).previous_sibling();
+  while (before && before.type() != pugi::node_element) before = before.previous_sibling();
+  return XmlNode(before.internal_object());
+}
 XmlNode XmlNode::parent() const { return XmlNode(pugi::xml_node(node_).parent().internal_object()); }
 std::ptrdiff_t XmlNode::offset() const { return pugi::xml_node(node_).offset_debug(); }
 
@@ -80,6 +85,12 @@ std::string_view XmlText::namespace_of(std::string_view name) const {
   const std::size_t colon = name.find(':');
   const auto found = namespaces_.find(name.substr(0, colon == std::string_view::npos ? 0 : colon));
   return found == namespaces_.end() ? std::string_view() : found->second;
+}
+
+bool XmlText::declares(std::string_view space) const {
+  for (const XmlAttribute attribute : root().attributes())
+    if (std::string_view(attribute.name()).starts_with("xmlns:") && attribute.value() == space) return true;
+  return false;
 }
 
 XmlAttribute XmlText::attribute_of(const XmlNode& node, std::string_view space,

@@ -71,7 +71,8 @@ class XmlNode {
   XmlRun<XmlAttribute> attributes() const;
   XmlRun<XmlNode> children() const { return XmlRun<XmlNode>(first_child()); }
   XmlNode first_child() const;
-  XmlNode next() const;  ///< beside it
+  XmlNode next() const;            ///< beside it
+  XmlNode element_before() const;  ///< beside it, or none
   XmlNode parent() const;
   std::ptrdiff_t offset() const;  ///< byte of the file, -1 where it is not known
   const void* identity() const { return node_; }
@@ -102,6 +103,8 @@ class XmlText {
   /// The namespace that a name's prefix stands for; empty where it stands for none. A prefix means the same
   /// in all of the file, what it is declared as first.
   std::string_view namespace_of(std::string_view name) const;
+  /// Has the outermost element a prefix for the namespace?
+  bool declares(std::string_view space) const;
   /// The attribute of that local name in a namespace, whatever prefix stands for it.
   XmlAttribute attribute_of(const XmlNode& node, std::string_view space, std::string_view local) const;
 

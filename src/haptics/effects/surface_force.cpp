@@ -69,9 +69,11 @@ Vector3 spring_damper_force(const Contact& contact, const Surface& surface) {
   const Vector3 spring = surface.stiffness * (contact.scp - contact.tip);
   const double pressed = spring.dot(contact.normal);
   const double leaving = (contact.tip_velocity - contact.scp_velocity).dot(contact.normal);
+  const double whole_at = surface.stiffness * surface.damping_depth;
+  const double damping = surface.damping * (pressed < whole_at ? pressed / whole_at : 1.0);
   // Pressed <= 0: the tip has come out, nothing to damp. Otherwise a damper may take the whole push away
   // from a tip that leaves fast, but not turn it into a pull.
-  const double pushed = pressed > 0.0 ? std::max(0.0, pressed - surface.damping * leaving) : 0.0;
+  const double pushed = pressed > 0.0 ? std::max(0.0, pressed - damping * leaving) : 0.0;
   return spring + (pushed - pressed) * contact.normal;
 }
 

@@ -20,6 +20,7 @@ enum class TouchableSides {
 struct Surface {
   double stiffness = 0.0;              // N/m, usually 300 to 5000; 0: the device's nominal stiffness
   double damping = kAutomaticDamping;  // N s/m, usually 0.5 to 20; kAutomaticDamping
+  double damping_depth = 0.0;          // m, over which the damper sets in, usually 0 (at once) to 0.0005
   double static_friction = 0.0;        // Coulomb coefficient, usually 0 to 1, >= dynamic_friction
   double dynamic_friction = 0.0;       // Coulomb coefficient, usually 0 to 0.8
   TouchableSides sides = TouchableSides::Front;
@@ -100,7 +101,8 @@ struct Contact {
 
 /// The force (N) on the tip: a spring to the SCP (thesis 5.3.2, figure 5.1) and a damper along the contact
 /// normal only, so that sliding is felt as friction and texture alone. Never pulls the tip into the
-/// surface. `surface` has been through make_stable. Real-time safe.
+/// surface. With a damping depth the force begins at nothing however fast the tip lands. `surface` has been
+/// through make_stable. Real-time safe.
 Vector3 spring_damper_force(const Contact& contact, const Surface& surface);
 
 /// A first-order low-pass for noisy velocities, -3 dB at the corner (well below the tick rate). Each step

@@ -22,8 +22,9 @@ constexpr double kLeastPressure = 0.02;  // a pen that presses less draws nothin
 /// from +z, with the middle of the stroke at the origin and y up.
 class Aim {
  public:
-  Aim(const PenStroke& stroke, const Vector2& middle, double hand_stiffness)
-      : stroke_(stroke), middle_(middle), stiffness_(hand_stiffness) {}
+  /// `give`: m for each N by which the hand and the paper give way together.
+  Aim(const PenStroke& stroke, const Vector2& middle, double give)
+      : stroke_(stroke), middle_(middle), give_(give) {}
 
   double seconds() const { return kComingDown + drawing_seconds() + kLiftingUp; }
 
@@ -32,7 +33,7 @@ class Aim {
     const PenSample sample = sample_at(stroke_.front().time + drawn);
     const double down = std::clamp(std::min(time / kComingDown, (seconds() - time) / kLiftingUp), 0.0, 1.0);
     // The hand's spring presses as it aims below the paper.
-    const double below = sample.pressure * kFullPressure / stiffness_;
+    const double below = sample.pressure * kFullPressure * give_;
     const double smooth = down * down * (3.0 - 2.0 * down);
     return {sample.place.x() - middle_.x(), middle_.y() - sample.place.y(),
             kAbove - smooth * (kAbove + below)};
@@ -55,8 +56,15 @@ class Aim {
 
   const PenStroke& stroke_;
   Vector2 middle_;
-  double stiffness_;
+  double give_;
 };
+
+/// m for each N by which a hand's spring and the paper's give way, one behind the other.
+double give_of(const devices::SimulatedSettings& settings, haptics::Surface surface) {
+  haptics::make_stable(surface, settings.info.nominal_stiffness, settings.info.effective_mass,
+                       1.0 / settings.rate);
+  return 1.0 / settings.hand.stiffness + 1.0 / surface.stiffness;
+}
 
 std::shared_ptr<const haptics::HapticScene> scene_of(const Paper& paper, bool eraser) {
   haptics::HapticObject sheet;
@@ -96,7 +104,7 @@ FeltStroke felt_stroke(const PenStroke& stroke, const Paper& paper, const Simula
   settings.rate = pen.rate_hz;
   Eigen::AlignedBox2d box;
   for (const PenSample& sample : stroke) box.extend(sample.place);
-  const Aim aim(stroke, box.center(), settings.hand.stiffness);
+  const Aim aim(stroke, box.center(), give_of(settings, surface_of(paper, pen.eraser)));
   settings.start = aim.at(0.0);
   settings.trajectory = [&aim](double time) { return aim.at(time); };
   devices::SimulatedDevice device(settings);

@@ -10,6 +10,8 @@
 namespace icome::sketch {
 namespace {
 
+constexpr double kSoftLanding = 0.0002;  // m, over which the damper of the plane sets in
+
 constexpr std::array<Paper, 4> kPapers = {{
     {"paper", 0.0, 0.35, 0.30, "grain:0.00005,0.0006", "a sheet on a desk: fine grain"},
     {"blackboard", 0.0, 0.60, 0.50, "grain:0.00012,0.0012", "chalk on slate: rough"},
@@ -34,6 +36,7 @@ haptics::Surface surface_of(const Paper& paper, bool eraser) {
   const double more = eraser ? kEraserFriction : 1.0;
   haptics::Surface surface;
   surface.stiffness = paper.stiffness;
+  surface.damping_depth = kSoftLanding;
   surface.static_friction = more * paper.static_friction;
   surface.dynamic_friction = more * paper.dynamic_friction;
   if (!paper.texture.empty()) surface.texture = haptics::make_texture(paper.texture).value();

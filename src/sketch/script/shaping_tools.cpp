@@ -42,8 +42,13 @@ base::Result<DrawingEdit> plan_smooth(Drafting& drafting, const Arguments& argum
   DrawingEdit edit;
   std::size_t before = 0;
   std::size_t after = 0;
+  const double error = length_of(arguments, "error");
   for (const StrokePointer& stroke : *strokes) {
-    Curve smooth = smoothed(stroke->curve, length_of(arguments, "error"));
+    if (smoothing_samples(stroke->curve, error) > kMostSmoothingSamples)
+      return base::fail(
+          fmt::format("this stroke is too long to be smoothed within {:g} mm: allow a larger error",
+                      error / kMillimetre));
+    Curve smooth = smoothed(stroke->curve, error);
     before += stroke->curve.segments.size();
     after += smooth.segments.size();
     drafting.selection.erase(stroke->id);

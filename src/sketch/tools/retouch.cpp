@@ -1,6 +1,7 @@
 #include "sketch/tools/retouch.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <set>
 
@@ -10,14 +11,12 @@ namespace icome::sketch {
 namespace {
 
 constexpr double kLeastSamples = 32.0;  // of a segment
-constexpr double kMostSamples = 4096.0;
-constexpr double kForBulges = 0.05;  // of the distance: what the samples may leave out
+constexpr double kForBulges = 0.05;     // of the distance: what the samples may leave out
 
 /// So many that the curve leaves the line through them by little: n^2 of them by an n^2-th of its bend.
-int samples_of(const CubicBezier& segment, double distance) {
+double samples_of(const CubicBezier& segment, double distance) {
   const double bend = std::max(segment.second_derivative(0.0).norm(), segment.second_derivative(1.0).norm());
-  const double enough = std::sqrt(bend / (8.0 * kForBulges * distance));
-  return int(std::ceil(std::clamp(enough, kLeastSamples, kMostSamples)));
+  return std::ceil(std::max(kLeastSamples, std::sqrt(bend / (8.0 * kForBulges * distance))));
 }
 
 /// The t of a segment at a length from its start, by halving.
@@ -67,11 +66,18 @@ Curve width_changed(const Curve& curve, double place, double factor, double reac
   return changed;
 }
 
+double smoothing_samples(const Curve& curve, double distance) {
+  double samples = 0.0;
+  for (const CubicBezier& segment : curve.segments) samples += samples_of(segment, distance);
+  return samples;
+}
+
 Curve smoothed(const Curve& curve, double distance) {
+  assert(smoothing_samples(curve, distance) <= kMostSmoothingSamples);
   PenStroke samples;
   const double widest = curve.widest();
   for (std::size_t i = 0; i < curve.segments.size(); ++i) {
-    const int count = samples_of(curve.segments[i], distance);
+    const int count = int(samples_of(curve.segments[i], distance));
     for (int k = i == 0 ? 0 : 1; k <= count; ++k) {
       const double t = double(k) / count;
       const double width = curve.width_at(double(i) + t);

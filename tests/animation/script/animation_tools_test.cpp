@@ -23,6 +23,10 @@ ProjectDisk small_disk() {
           [](const std::string& folder) -> base::Result<std::vector<std::string>> {
             if (folder == "empty") return std::vector<std::string>();
             return std::vector<std::string>{folder + "/1.png", folder + "/2.png", folder + "/10.png"};
+          },
+          [](const Sound& sound) -> base::Result<void> {
+            if (sound.file == "gone.wav") return base::fail("gone.wav: no such file");
+            return {};
           }};
 }
 

@@ -231,6 +231,32 @@ TEST(SvgReader, LeavesOutFaultyAttributes) {
   EXPECT_TRUE(read->drawing.bounds().max().isApprox(Vector2(0.0254, 0.0254)));
 }
 
+TEST(SvgReader, DrawsDotsWithRoundEndsOnly) {
+  const Stroke dot = only_stroke("<path d='M15 5z' stroke='red' stroke-width='4' stroke-linecap='round'/>");
+  EXPECT_TRUE(dot.curve.at(0.0).isApprox(Vector2(0.015, 0.005)));
+  EXPECT_NEAR(dot.curve.width_at(0.5), 0.004, 1e-12);
+  EXPECT_EQ(drawn("<path d='M15 5z' stroke='red'/><path d='M1 1z'/>").drawing.stroke_count(), 0U);
+  EXPECT_EQ(only_stroke("<path d='M1 1L9 1V9zz' stroke='red' stroke-linecap='round'/>").curve.segments.size(),
+            3U);
+}
+
+TEST(SvgReader, KeepsWidthsThatDoNotScale) {
+  const Stroke fixed = only_stroke(
+      "<g transform='scale(7)'><path d='M0 0H1' stroke='red' stroke-width='2' "
+      "vector-effect='non-scaling-stroke'/></g>");
+  EXPECT_NEAR(fixed.curve.width_at(0.5), 2.0 * 0.0254 / 96.0, 1e-12) << "2 px as a browser shows them";
+  const Stroke inner =
+      only_stroke("<g vector-effect='non-scaling-stroke'><path d='M0 0H1' stroke='red'/></g>");
+  EXPECT_NEAR(inner.curve.width_at(0.5), 0.001, 1e-12) << "it is not inherited";
+}
+
+TEST(SvgReader, TellsOfTranslucentGroups) {
+  const std::string two = "<path d='M0 0H9' stroke='red'/><path d='M0 1H9' stroke='red'/>";
+  EXPECT_EQ(drawn("<g opacity='0.5'>" + two + "</g>").notes.size(), 1U);
+  EXPECT_TRUE(drawn("<g opacity='0.5'><path d='M0 0H9' stroke='red'/></g>").notes.empty());
+  EXPECT_TRUE(drawn("<g>" + two + "</g>").notes.empty());
+}
+
 // Files that the project wrote.
 
 constexpr const char* kOwnPath =
@@ -265,7 +291,7 @@ TEST(SvgReader, FollowsWhatOtherProgramsDidToItsStrokes) {
 TEST(SvgReader, ReadsItsOwnLayersAndPaper) {
   const auto read = read_svg_text(
       "<svg xmlns='http://www.w3.org/2000/svg' xmlns:i='https://icome.org/sketch' i:size='297,210.5'>"
-      "<g id='x' i:layer='' i:locked='true' i:hidden='true'/><path i:shown='only' d='M0 0H1V1'/></svg>",
+      "<g id='x' i:layer='' i:locked='true' display='none'/><path i:shown='only' d='M0 0H1V1'/></svg>",
       "a.svg");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->drawing.size, Vector2(0.297, 0.2105));

@@ -133,5 +133,130 @@ TEST(SvgText, LayersAreLayersInInkscapeToo) {
   EXPECT_NE(text.find("display=\"none\""), std::string::npos) << text;
 }
 
+// What another program may do to a file of the project.
+
+/// The text of a drawing with one part in the place of another, read again.
+DrawingRead read_changed(const Drawing& drawing, SvgLines lines, const std::string& part,
+                         const std::string& other) {
+  std::string text = svg_text(drawing, lines);
+  const std::size_t place = text.find(part);
+  EXPECT_NE(place, std::string::npos) << part << " in " << text;
+  if (place != std::string::npos) text.replace(place, part.size(), other);
+  auto read = read_svg_text(text, "changed.svg");
+  EXPECT_TRUE(read) << read.error().message;
+  return read ? std::move(*read) : DrawingRead{};
+}
+
+Stroke stroke_changed(const Stroke& stroke, SvgLines lines, const std::string& part, const std::string& other,
+                      const std::string& change) {
+  const DrawingRead read = read_changed(with_stroke(stroke), lines, part, other);
+  EXPECT_EQ(read.notes.size(), 1U);
+  if (read.notes.size() == 1) {
+    EXPECT_NE(read.notes[0].find("changed " + change + " of"), std::string::npos) << read.notes[0];
+  }
+  return read.drawing.stroke_count() == 1 ? *read.drawing.layers[0].strokes[0] : Stroke{};
+}
+
+/// Red, green within, half opaque, from 1 mm to 3 mm wide.
+Stroke filled_stroke() {
+  Stroke stroke = plain_stroke(0.002);
+  stroke.curve.widths = {{0.0, 0.001, 1.0, 0.003}};
+  stroke.colour = {1.0F, 0.0F, 0.0F};
+  stroke.fill = Colour{0.0F, 1.0F, 0.0F};
+  stroke.opacity = 0.5;
+  return stroke;
+}
+
+TEST(SvgOfOthers, RepaintsOutlines) {
+  const Stroke line = stroke_changed(filled_stroke(), SvgLines::Outlines, "fill=\"#ff0000\"",
+                                     "style=\"fill:#0000ff\"", "the colour");
+  EXPECT_EQ(line.colour, (Colour{0.0F, 0.0F, 1.0F}));
+  EXPECT_EQ(line.fill, filled_stroke().fill);
+  EXPECT_EQ(line.curve, filled_stroke().curve) << "and no more";
+  const Stroke area =
+      stroke_changed(filled_stroke(), SvgLines::Outlines, "fill=\"#00ff00\"", "fill=\"#0000ff\"", "the fill");
+  EXPECT_EQ(area.fill, (Colour{0.0F, 0.0F, 1.0F}));
+  EXPECT_EQ(area.colour, filled_stroke().colour);
+  const Stroke clear = stroke_changed(filled_stroke(), SvgLines::Outlines, "opacity=\"0.5\"",
+                                      "opacity=\"0.25\"", "the opacity");
+  EXPECT_EQ(clear.opacity, 0.25);
+}
+
+TEST(SvgOfOthers, RepaintsCentreLines) {
+  const auto changed = [](const char* part, const char* other, const char* change) {
+    return stroke_changed(filled_stroke(), SvgLines::CentreLines, part, other, change);
+  };
+  EXPECT_EQ(changed("stroke=\"#ff0000\"", "stroke=\"blue\"", "the colour").colour,
+            (Colour{0.0F, 0.0F, 1.0F}));
+  EXPECT_EQ(changed("fill=\"#00ff00\"", "fill=\"none\"", "the fill").fill, std::nullopt);
+  EXPECT_EQ(changed("linecap=\"round\"", "linecap=\"butt\"", "the ends").ends, CurveEnds::Flat);
+  const Stroke wide = changed("stroke-width=\"2\"", "stroke-width=\"4\"", "the width");
+  ASSERT_EQ(wide.curve.widths.size(), 1U);
+  EXPECT_DOUBLE_EQ(wide.curve.widths[0].from_width, 0.002);
+  EXPECT_DOUBLE_EQ(wide.curve.widths[0].to_width, 0.006);
+}
+
+TEST(SvgOfOthers, TakeTheFillOut) {
+  const std::string text = svg_text(with_stroke(filled_stroke()), SvgLines::Outlines);
+  const std::size_t begin = text.find("<path"), end = text.find("/>", begin) + 2;
+  const DrawingRead read =
+      read_changed(with_stroke(filled_stroke()), SvgLines::Outlines, text.substr(begin, end - begin), "");
+  ASSERT_EQ(read.drawing.stroke_count(), 1U);
+  EXPECT_EQ(read.drawing.layers[0].strokes[0]->fill, std::nullopt);
+  EXPECT_EQ(read.drawing.layers[0].strokes[0]->colour, filled_stroke().colour);
+}
+
+TEST(SvgOfOthers, RenameUnlockAndShowLayers) {
+  Drawing drawing = with_stroke(plain_stroke(0.002));
+  drawing.layers[0].locked = true;
+  drawing.layers[0].visible = false;
+  const auto layer = [&](const char* part, const char* other) {
+    return read_changed(drawing, SvgLines::Outlines, part, other).drawing.layers.at(0);
+  };
+  EXPECT_EQ(layer("inkscape:label=\"ink\"", "inkscape:label=\"sky\"").name, "sky");
+  EXPECT_FALSE(layer(" sodipodi:insensitive=\"true\"", "").locked);
+  EXPECT_TRUE(layer(" display=\"none\"", "").visible);
+  const Layer same = layer("<svg", "<svg");
+  EXPECT_EQ(same.name, "ink");
+  EXPECT_TRUE(same.locked);
+  EXPECT_FALSE(same.visible);
+}
+
+TEST(SvgOfOthers, ChangeThePaper) {
+  const Drawing drawing = with_stroke(plain_stroke(0.002));
+  const Vector2 start = drawing.layers[0].strokes[0]->curve.at(0.0);
+  const DrawingRead larger =
+      read_changed(drawing, SvgLines::Outlines, "width=\"297mm\" height=\"210mm\" viewBox=\"0 0 297 210\"",
+                   "width=\"420mm\" height=\"297mm\" viewBox=\"-10 -20 420 297\"");
+  EXPECT_TRUE(larger.drawing.size.isApprox(Vector2(0.420, 0.297)));
+  const Curve& moved = larger.drawing.layers.at(0).strokes.at(0)->curve;
+  EXPECT_TRUE(moved.at(0.0).isApprox(start + Vector2(0.010, 0.020), 1e-12));
+  EXPECT_NEAR(moved.widths.at(0).to_width, 0.002, 1e-12);
+  const DrawingRead stripped = read_changed(drawing, SvgLines::Outlines, "width=\"297mm\" height=\"210mm\"",
+                                            "width=\"100%\" height=\"100%\"");
+  EXPECT_EQ(stripped.drawing.size, drawing.size) << "nothing says that it was changed";
+  EXPECT_EQ(stripped.drawing.layers.at(0).strokes.at(0)->curve.at(0.0), start);
+}
+
+TEST(SvgOfOthers, EmptyWidthsLeaveWhatIsDrawn) {
+  for (const SvgLines lines : {SvgLines::Outlines, SvgLines::CentreLines}) {
+    const DrawingRead read = read_changed(with_stroke(plain_stroke(0.002)), lines, "icome:widths=\"0,2,1,2\"",
+                                          "icome:widths=\"\"");
+    ASSERT_EQ(read.notes.size(), 1U);
+    EXPECT_NE(read.notes[0].find("icome:widths is empty, but the path draws a line: what the path draws is"),
+              std::string::npos)
+        << read.notes[0];
+    EXPECT_NEAR(read.drawing.bounds().sizes().y(), 0.002, 1e-6);
+  }
+}
+
+TEST(SvgOfOthers, TakeAllPaintAway) {
+  const DrawingRead read = read_changed(with_stroke(plain_stroke(0.002)), SvgLines::CentreLines,
+                                        "stroke=\"#000000\"", "stroke=\"none\"");
+  EXPECT_EQ(read.drawing.stroke_count(), 0U);
+  ASSERT_EQ(read.notes.size(), 1U);
+  EXPECT_NE(read.notes[0].find("without line and fill is skipped"), std::string::npos) << read.notes[0];
+}
+
 }  // namespace
 }  // namespace icome::drawing

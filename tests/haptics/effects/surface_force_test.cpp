@@ -165,6 +165,20 @@ TEST(SpringDamperForce, DampsApproachAndRetreatAlongTheNormalOnly) {
   EXPECT_NEAR((spring_damper_force(contact, surface) - Vector3(0, 0, 0.5)).norm(), 0, kForceTolerance);
 }
 
+TEST(SpringDamperForce, ADampingDepthLetsAFastTipLandWithoutAStep) {
+  const Surface surface{.stiffness = 1000.0, .damping = 5.0, .damping_depth = 0.0005};
+  const auto force_at = [&](double depth) {
+    Contact contact = pressed_one_millimetre();
+    contact.tip.z() = contact.scp.z() - depth;
+    contact.tip_velocity = Vector3(0, 0, -1.0);
+    return spring_damper_force(contact, surface).z();
+  };
+  EXPECT_NEAR(force_at(1e-9), 0.0, 2e-5);
+  EXPECT_NEAR(force_at(0.00025), 0.25 + 2.5, kForceTolerance) << "half of the damper";
+  EXPECT_NEAR(force_at(0.0005), 0.5 + 5.0, kForceTolerance);
+  EXPECT_NEAR(force_at(0.001), 1.0 + 5.0, kForceTolerance);
+}
+
 TEST(SpringDamperForce, NeverPullsATipThatLeavesFast) {
   const Surface surface{.stiffness = 1000.0, .damping = 5.0};
   Contact contact = pressed_one_millimetre();

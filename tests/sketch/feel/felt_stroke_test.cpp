@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "devices/device_profiles.h"
 #include "places.h"
 #include "sketch/files/stroke_files.h"
 
@@ -31,12 +32,27 @@ TEST(FeltStroke, DrawsWhereTheHandAims) {
   }
 }
 
-// The hand aims 2 N x 0.5 / 300 N/m = 3.3 mm below; the plane gives way by as much as 1 N needs.
 TEST(FeltStroke, PressesAsHardAsTheRecordingSays) {
-  const FeltStroke felt = felt_stroke(straight_stroke(0.5), paper_named("glass"), {});
-  const PenSample& middle = felt.drawn[felt.drawn.size() / 2];
-  EXPECT_GT(middle.pressure, 0.33);
-  EXPECT_LE(middle.pressure, 0.5);
+  for (const char* const device : {"simulated", "Touch", "omega.x"}) {
+    SimulatedPen pen;
+    if (device != pen.device.name) pen.device = devices::find_device_profile(device).value();
+    for (const double pressure : {0.1, 0.4}) {
+      const FeltStroke felt = felt_stroke(straight_stroke(pressure), paper_named("glass"), pen);
+      const PenSample& middle = felt.drawn[felt.drawn.size() / 2];
+      EXPECT_NEAR(middle.pressure, pressure, 0.02 * pressure) << device;
+    }
+  }
+}
+
+TEST(FeltStroke, LandsWithoutAStep) {
+  for (const Paper& paper : papers()) {
+    for (const double rate : {1000.0, 10000.0}) {
+      SimulatedPen pen;
+      pen.rate_hz = rate;
+      // The force grows from nothing, as the hand comes down at 12 mm/s, and the damper with it.
+      EXPECT_LT(felt_stroke(straight_stroke(0.5), paper, pen).greatest_step, 0.05) << paper.name << rate;
+    }
+  }
 }
 
 TEST(FeltStroke, RubsAsCoulombSays) {
