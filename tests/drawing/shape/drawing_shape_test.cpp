@@ -146,8 +146,8 @@ TEST(DrawingShape, RefusesDrawingsThatNoEditsMake) {
   refused(with_stroke([](Stroke& it) { it.id = StrokeId{1}; }), "number 1");
   refused(with_stroke([](Stroke& it) { it.curve.segments.clear(); }), "segment");
   refused(with_stroke([](Stroke& it) { it.curve.segments[0].points[1].x() = std::nan(""); }), "not finite");
-  refused(with_stroke([](Stroke& it) { it.curve.segments[0].points[1].x() = 1e9; }), "too far");
-  refused(with_stroke([](Stroke& it) { it.curve.widths[0].from_width = -1.0; }), "not negative");
+  refused(with_stroke([](Stroke& it) { it.curve.segments[0].points[1].x() = 1e9; }), "farther than 10 km");
+  refused(with_stroke([](Stroke& it) { it.curve.widths[0].from_width = -1.0; }), "width is from 0");
   refused(with_stroke([](Stroke& it) { it.curve.widths[0].to = 0.5; }), "reach");
   refused(with_stroke([](Stroke& it) {
             it.curve.segments.push_back(CubicBezier::line({0.1, 0.1}, {0.2, 0.1}));

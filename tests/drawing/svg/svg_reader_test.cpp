@@ -282,7 +282,8 @@ TEST(SvgReader, FollowsWhatOtherProgramsDidToItsStrokes) {
   const Stroke moved = only_stroke("<g transform='translate(10,0)'>" + std::string(kOwnPath) + "/></g>");
   EXPECT_TRUE(moved.curve.segments[0].points[0].isApprox(Vector2(0.011, 0.002)));
   const std::string mark = drawn_mark("M0 0H1V1");
-  const Stroke same = only_stroke(std::string(kOwnPath) + " icome:drawn='" + mark + "'/>");
+  const Stroke same =
+      only_stroke(std::string(kOwnPath) + " fill='red' opacity='0.7' icome:drawn='" + mark + "'/>");
   EXPECT_EQ(same.opacity, 0.7);
   const Stroke redrawn = only_stroke(std::string(kOwnPath) + " icome:drawn='0'/>");
   EXPECT_TRUE(redrawn.curve.segments[0].points[0].isApprox(Vector2(0.0, 0.0))) << "d counts";

@@ -59,7 +59,11 @@ void CutoutDocument::take(Project project, const fs::path& folder) {
   // Asks for the pictures each time, as another folder has others.
   disk_ = {
       .size = [this](const std::string& picture) { return animation::disk_of(*pictures_).size(picture); },
-      .pictures = [this](const std::string& name) { return animation::disk_of(*pictures_).pictures(name); }};
+      .pictures = [this](const std::string& name) { return animation::disk_of(*pictures_).pictures(name); },
+      .check_sound =
+          [this](const animation::Sound& sound) {
+            return animation::disk_of(*pictures_).check_sound(sound);
+          }};
   runner_ = std::make_unique<animation::AnimationRunner>(std::move(project), disk_);
   runner_->set_sink([this](const ProjectEdit& edit) { return write_down(edit); });
   selection_.clear();
