@@ -120,7 +120,7 @@ class Animate(unittest.TestCase):
             pictures.append((self.folder / "one.png").read_bytes())
         self.assertEqual(*pictures)
         (self.folder / "packed.svgz").write_bytes(gzip.compress(SQUARE.encode())[:-20])
-        told = animate("one.cutout", "--out", "two.png", "--frames", "0-0", cwd=self.folder)
+        told = animate("one.cutout", "--out", "two.png", "--frames", "0-0", cwd=self.folder, code=1)
         self.assertIn("packed.svgz", told.stderr)
 
     def test_gives_the_same_bytes_each_time(self):
@@ -223,7 +223,7 @@ class Animate(unittest.TestCase):
     def test_a_sound_that_is_missing_is_told(self):
         script = self.script({"op": "sound", "file": "gone.wav"})
         done = animate("new", "--apply", script, "--save", "sound.cutout", cwd=self.folder, code=1)
-        self.assertIn("edits.jsonl:1: gone.wav", done.stderr)
+        self.assertIn("edits.jsonl:1: sound: gone.wav", done.stderr)
         self.assertFalse((self.folder / "sound.cutout").exists())
         (self.folder / "sound.cutout").write_text('cutout = 1\n[sound]\nfile = "gone.wav"\n')
         self.assertEqual([it["file"] for it in animate_json(self.folder / "sound.cutout")["missing"]], ["gone.wav"])

@@ -177,7 +177,7 @@ void Servo::find_contact() {
 /// one.
 Surface Servo::felt_surface() const {
   const Surface& made = (*scene_->surfaces)[report_.contact.object];
-  Surface felt{.stiffness = made.stiffness, .damping = made.damping};
+  Surface felt{.stiffness = made.stiffness, .damping = made.damping, .damping_depth = made.damping_depth};
   const double effects = effect_feed_.mass_needed();
   if (effects <= 0.0) return felt;
   const double mass = device_.info().effective_mass;
