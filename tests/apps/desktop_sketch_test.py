@@ -1,5 +1,6 @@
 """The window of drawings as people use it: drawn in with the mouse, undone, saved, and closed."""
 import json
+import time
 import unittest
 
 from desktop_program import DesktopTest, wait_for
@@ -68,6 +69,30 @@ class SketchWindowTest(PaperTest):
         strokes = [it for layer in json.loads(listed.stdout)["layers"] for it in layer["strokes"]]
         self.assertEqual(len(strokes), 1)
         self.assertGreater(strokes[0]["length_mm"], 50)
+        desktop.quit()
+        self.assertEqual(desktop.wait_end(), 0, desktop.printed())
+
+    def test_the_mouse_moves_a_simulated_pen_that_pushes_back(self):
+        desktop = self.open_page("--device", "Touch", "--paper", "glass")
+        before = self.ink(desktop)
+        left, top, _, _ = desktop.place()
+        x, y = self.middle(desktop)
+        place = (left + x - 120, top + y)
+        desktop.screen.ask("mousemove", "--sync", *place)
+        time.sleep(0.5)  # the hand goes there
+        desktop.screen.ask("mousedown", 1)
+        time.sleep(0.5)  # and down
+        for step in range(1, 49):
+            desktop.screen.ask("mousemove", "--sync", place[0] + 5 * step, place[1] + step)
+            time.sleep(0.01)
+        time.sleep(0.3)
+        desktop.screen.ask("mouseup", 1)
+        wait_for("the line", lambda: self.ink(desktop) > before + 0.0005)
+        self.keep(desktop, "sketch-felt-pen")
+        desktop.wait_title(r"\*")
+        desktop.key("ctrl+z")
+        wait_for("no line", lambda: self.ink(desktop) < before + 0.0005)
+        desktop.wait_title(r"^Untitled drawing - ICOME")
         desktop.quit()
         self.assertEqual(desktop.wait_end(), 0, desktop.printed())
 

@@ -48,6 +48,7 @@ class SimulatedDevice final : public PointerDevice {
   explicit SimulatedDevice(SimulatedSettings settings = {});
 
   const DeviceInfo& info() const override { return settings_.info; }
+  const SimulatedHand& hand() const { return settings_.hand; }
   /// Advances one tick, then reads; a velocity is the exact one, or with an encoder the backward
   /// difference of its readings. Real-time safe.
   DeviceStatus read(PointerState& state) override;

@@ -49,6 +49,7 @@ Vector3 at_most(const Vector3& force, double newtons) {
 /// Null where the text makes none.
 std::unique_ptr<Effect> effect_of(const PlacedEffect& placed) {
   if (placed.panel) return std::make_unique<Panel>(*placed.panel);
+  if (placed.make) return (*placed.make)();
   auto made = make_effect(placed.text);
   return made ? std::move(*made) : nullptr;
 }

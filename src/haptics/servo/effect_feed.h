@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 
 namespace icome::haptics {
 
+using MakeEffect = std::function<std::unique_ptr<Effect>()>;
+
 /// An effect of a design, with the pose and the motion of its object.
 struct PlacedEffect {
   std::uint64_t id = 0;  // of its object; 0: it has none
@@ -20,10 +23,13 @@ struct PlacedEffect {
   Motion motion = {};
   bool mirrored = false;                                 // its own x is negated before its pose is applied
   std::shared_ptr<const PanelSettings> panel = nullptr;  // the ground of an interface element
+  /// Makes an effect that no text describes; null: there is a panel or a text. Called by the thread that
+  /// publishes.
+  std::shared_ptr<const MakeEffect> make = nullptr;
 
   /// Are these the same effect, wherever it is?
   bool same_effect(const PlacedEffect& other) const {
-    return mirrored == other.mirrored && panel == other.panel && text == other.text;
+    return mirrored == other.mirrored && panel == other.panel && make == other.make && text == other.text;
   }
   bool operator==(const PlacedEffect& other) const {
     return id == other.id && same_effect(other) &&

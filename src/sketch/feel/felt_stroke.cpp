@@ -5,7 +5,6 @@
 
 #include "devices/simulated/simulated_device.h"
 #include "haptics/servo/servo.h"
-#include "haptics/shapes/primitive_shape.h"
 
 namespace icome::sketch {
 namespace {
@@ -59,21 +58,6 @@ class Aim {
   double give_;
 };
 
-/// m for each N by which a hand's spring and the paper's give way, one behind the other.
-double give_of(const devices::SimulatedSettings& settings, haptics::Surface surface) {
-  haptics::make_stable(surface, settings.info.nominal_stiffness, settings.info.effective_mass,
-                       1.0 / settings.rate);
-  return 1.0 / settings.hand.stiffness + 1.0 / surface.stiffness;
-}
-
-std::shared_ptr<const haptics::HapticScene> scene_of(const Paper& paper, bool eraser) {
-  haptics::HapticObject sheet;
-  sheet.id = {0, 1};
-  sheet.shape = std::make_shared<haptics::PrimitiveShape>(geometry::Plane{});
-  sheet.surface = surface_of(paper, eraser);
-  return haptics::HapticScene::compile({sheet});
-}
-
 void add_tick(FeltStroke& felt, const PenTick& tick) {
   if (!felt.ticks.empty()) {
     const PenTick& last = felt.ticks.back();
@@ -104,7 +88,8 @@ FeltStroke felt_stroke(const PenStroke& stroke, const Paper& paper, const Simula
   settings.rate = pen.rate_hz;
   Eigen::AlignedBox2d box;
   for (const PenSample& sample : stroke) box.extend(sample.place);
-  const Aim aim(stroke, box.center(), give_of(settings, surface_of(paper, pen.eraser)));
+  const Aim aim(stroke, box.center(),
+                give_of(settings.hand.stiffness, settings.info, paper, 1.0 / settings.rate));
   settings.start = aim.at(0.0);
   settings.trajectory = [&aim](double time) { return aim.at(time); };
   devices::SimulatedDevice device(settings);

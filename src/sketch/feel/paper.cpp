@@ -6,6 +6,7 @@
 
 #include "base/near_names.h"
 #include "haptics/effects/texture_text.h"
+#include "haptics/shapes/primitive_shape.h"
 
 namespace icome::sketch {
 namespace {
@@ -32,6 +33,14 @@ base::Result<Paper> find_paper(std::string_view name) {
   return base::fail(fmt::format("there is no paper '{}'{}", name, base::suggestion(name, std::move(names))));
 }
 
+std::shared_ptr<const haptics::HapticScene> scene_of(const Paper& paper, bool eraser) {
+  haptics::HapticObject sheet;
+  sheet.id = {0, 1};
+  sheet.shape = std::make_shared<haptics::PrimitiveShape>(geometry::Plane{});
+  sheet.surface = surface_of(paper, eraser);
+  return haptics::HapticScene::compile({sheet});
+}
+
 haptics::Surface surface_of(const Paper& paper, bool eraser) {
   const double more = eraser ? kEraserFriction : 1.0;
   haptics::Surface surface;
@@ -41,6 +50,12 @@ haptics::Surface surface_of(const Paper& paper, bool eraser) {
   surface.dynamic_friction = more * paper.dynamic_friction;
   if (!paper.texture.empty()) surface.texture = haptics::make_texture(paper.texture).value();
   return surface;
+}
+
+double give_of(double hand_stiffness, const devices::DeviceInfo& device, const Paper& paper, double dt) {
+  haptics::Surface surface = surface_of(paper, false);
+  haptics::make_stable(surface, device.nominal_stiffness, device.effective_mass, dt);
+  return 1.0 / hand_stiffness + 1.0 / surface.stiffness;
 }
 
 }  // namespace icome::sketch

@@ -1,8 +1,11 @@
 #pragma once
+#include <memory>
 #include <span>
 #include <string_view>
 
 #include "base/result.h"
+#include "devices/pointer_device.h"
+#include "haptics/contact/haptic_scene.h"
 #include "haptics/effects/surface_force.h"
 
 namespace icome::sketch {
@@ -29,6 +32,13 @@ constexpr double kEraserFriction = 1.8;
 
 /// The paper as a surface that the servo renders, for a pen or an eraser.
 haptics::Surface surface_of(const Paper& paper, bool eraser);
+
+/// The paper as all that there is to touch: the plane z = 0, from above.
+std::shared_ptr<const haptics::HapticScene> scene_of(const Paper& paper, bool eraser);
+
+/// m for each N by which a hand's spring and the paper give way together, when a device presses on it that is
+/// read every `dt` s.
+double give_of(double hand_stiffness, const devices::DeviceInfo& device, const Paper& paper, double dt);
 
 /// The force (N) with which a pen that presses so hard has full pressure. A plane is a spring with a damper,
 /// so no hand can press a line wider than that.

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 
+#include "sketch/feel/resistance.h"
 #include "ui/sketch/paper_view.h"
 #include "ui/sketch/sketch_document.h"
 #include "ui/sketch/sketch_look.h"
@@ -44,6 +45,10 @@ class CanvasTool {
   virtual void hover(const PenInput& /*input*/) {}
   /// Leaves the drawing as it was before the press.
   virtual void give_up() { bench_.document.give_up(); }
+  /// What the pen holds of the drawing, for how that feels; none while nothing is held.
+  virtual sketch::ToolGrip grip() const { return {}; }
+  /// Does it need each reading of a pen, or only where it is when the screen is drawn?
+  virtual bool follows_all() const { return false; }
   /// Draws what belongs to the tool over the drawing, at least within `part` of the canvas.
   virtual void paint(QPainter& /*painter*/, const QRect& /*part*/) {}
 

@@ -1,6 +1,5 @@
 #include <optional>
 
-#include "sketch/feel/resistance.h"
 #include "sketch/tools/connect.h"
 #include "ui/sketch/canvas_tool.h"
 
@@ -24,7 +23,6 @@ class ConnectTool final : public CanvasTool {
 
   void drag(const PenInput& input) override {
     if (!held_) return;
-    now_ = input;
     end_ = sketch::nearest_end(document().drawing(), input.place, view().on_paper(kAttracts), held_);
     const drawing::Stroke* const stroke = document().drawing().find(held_->stroke);
     if (stroke == nullptr) return;
@@ -55,16 +53,16 @@ class ConnectTool final : public CanvasTool {
   void paint(QPainter& painter, const QRect& /*part*/) override {
     painter.setPen(overlay_pen());
     if (end_) painter.drawEllipse(view().to_screen(end_->place), kEndRing, kEndRing);
-    if (held_ && end_ && look().force) {
-      const double within = view().on_paper(kAttracts);
-      paint_force(painter, now_.at, sketch::connect_force(now_.place, end_->place, within), view());
-    }
+  }
+
+  sketch::ToolGrip grip() const override {
+    if (!held_ || !end_) return {};
+    return {.end = end_->place, .within = view().on_paper(kAttracts)};
   }
 
  private:
   std::optional<sketch::StrokeEnd> held_;
   std::optional<sketch::StrokeEnd> end_;  // that a press would take, or that the held one goes to
-  PenInput now_;
 };
 
 /// Fills the curve that goes around the place, else the stroke that is near; with Shift, empties it.

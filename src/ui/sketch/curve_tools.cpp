@@ -3,7 +3,6 @@
 #include <cmath>
 #include <optional>
 
-#include "sketch/feel/resistance.h"
 #include "sketch/tools/pull.h"
 #include "sketch/tools/retouch.h"
 #include "ui/sketch/canvas_tool.h"
@@ -49,8 +48,6 @@ class CurveTool : public CanvasTool {
     const QPointF at = taken_ && now_ ? shown_at(*pick_, *now_) : view().to_screen(pick_->point);
     painter.setPen(overlay_pen());
     painter.drawEllipse(at, kRing, kRing);
-    if (taken_ && now_ && look().force)
-      paint_force(painter, now_->at, force(now_->place - from_.place), view());
   }
 
  protected:
@@ -58,7 +55,10 @@ class CurveTool : public CanvasTool {
                                 const PenInput& now) = 0;
   /// The place on the canvas while it is dragged.
   virtual QPointF shown_at(const sketch::Pick& pick, const PenInput& now) const = 0;
-  virtual drawing::Vector2 force(const drawing::Vector2& pull) const = 0;
+  /// Where the curve was taken; none: it is not held.
+  std::optional<drawing::Vector2> taken_at() const {
+    return taken_ ? std::optional(from_.place) : std::nullopt;
+  }
 
  private:
   void look_for(const drawing::Vector2& place) {
@@ -76,13 +76,17 @@ class PullTool final : public CurveTool {
  public:
   using CurveTool::CurveTool;
 
+  sketch::ToolGrip grip() const override {
+    const auto from = taken_at();
+    return from ? sketch::ToolGrip{.start = *from, .holding = 1.0} : sketch::ToolGrip{};
+  }
+
  private:
   drawing::Curve change(const drawing::Curve& curve, const sketch::Pick& pick, const PenInput& from,
                         const PenInput& now) override {
     return sketch::pulled(curve, pick.place, now.place - from.place, sketch::PullRule::Exact);
   }
   QPointF shown_at(const sketch::Pick& /*pick*/, const PenInput& now) const override { return now.at; }
-  drawing::Vector2 force(const drawing::Vector2& pull) const override { return sketch::pull_force(pull); }
 };
 
 /// A pen makes the line as wide as it is pressed at most: lightly, narrower. A mouse goes up for wider.
@@ -109,7 +113,6 @@ class WidthTool final : public CurveTool {
   QPointF shown_at(const sketch::Pick& pick, const PenInput& /*now*/) const override {
     return view().to_screen(pick.point);
   }
-  drawing::Vector2 force(const drawing::Vector2& /*pull*/) const override { return drawing::Vector2::Zero(); }
 
   double hardest_ = 0.0;  // pressure since the press
 };

@@ -114,6 +114,21 @@ void PenPanel::add_pressure_rows() {
                             look_.constant_width));
 }
 
+void PenPanel::offer_papers(std::string_view chosen, std::function<void(const sketch::Paper&)> lay) {
+  auto* paper = new QuietComboBox(pen_->body());
+  paper->setObjectName("pen.paper");
+  paper->setAccessibleName("Paper");
+  for (const sketch::Paper& it : sketch::papers()) {
+    paper->addItem(QString::fromUtf8(it.name.data(), int(it.name.size())));
+    paper->setItemData(paper->count() - 1, QString::fromUtf8(it.about.data(), int(it.about.size())),
+                       Qt::ToolTipRole);
+    if (it.name == chosen) paper->setCurrentIndex(paper->count() - 1);
+  }
+  connect(paper, &QComboBox::activated, this,
+          [lay = std::move(lay)](int row) { lay(sketch::papers()[std::size_t(row)]); });
+  pen_->add_row("Paper", "How it feels below a pen that pushes back", {paper});
+}
+
 void PenPanel::add_eraser_rows(PanelSection& eraser) {
   eraser.add_row("Radius, mm", "Of the circle that erases",
                  {length_field(eraser, "Eraser", kLeastEraser, look_.eraser_radius)});

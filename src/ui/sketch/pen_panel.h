@@ -3,6 +3,7 @@
 #include <QWidget>
 #include <functional>
 
+#include "sketch/feel/paper.h"
 #include "ui/forms/colour_button.h"
 #include "ui/forms/quantity_field.h"
 #include "ui/forms/quiet_combo_box.h"
@@ -18,6 +19,10 @@ namespace icome::ui {
 class PenPanel final : public QWidget {
  public:
   PenPanel(SketchDocument& document, SketchLook& look, QWidget* parent);
+
+  /// Shows a choice of papers, of which the one of that name is there, and calls `lay` when another is
+  /// chosen.
+  void offer_papers(std::string_view chosen, std::function<void(const sketch::Paper&)> lay);
 
   /// Called after a change of the look.
   void on_change(std::function<void()> change) { changed_ = std::move(change); }

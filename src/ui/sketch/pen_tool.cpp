@@ -25,6 +25,7 @@ class PenTool final : public CanvasTool {
   void drag(const PenInput& input) override;
   void release(const PenInput& input) override;
   void give_up() override;
+  bool follows_all() const override { return true; }
   void paint(QPainter& painter, const QRect& part) override;
 
  private:

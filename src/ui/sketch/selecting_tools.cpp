@@ -3,7 +3,6 @@
 #include <cmath>
 #include <optional>
 
-#include "sketch/feel/resistance.h"
 #include "ui/sketch/canvas_tool.h"
 #include "ui/sketch/selection_frame.h"
 
@@ -23,6 +22,7 @@ class SelectingTool final : public CanvasTool {
   void drag(const PenInput& input) override;
   void release(const PenInput& input) override;
   void give_up() override;
+  sketch::ToolGrip grip() const override;
   void paint(QPainter& painter, const QRect& part) override;
 
  private:
@@ -32,11 +32,12 @@ class SelectingTool final : public CanvasTool {
   void choose(bool add);
   Eigen::Affine2d dragged() const;
   void paint_way(QPainter& painter) const;
-  drawing::Vector2 force() const;
+  void attract(sketch::ToolGrip& held) const;
 
   bool lasso_;
   std::optional<SelectionFrame::Grip> grip_;
-  std::vector<drawing::Vector2> way_;  // of the lasso or the touching; empty: nothing is chosen now
+  std::vector<drawing::Vector2> holding_;  // what holds the selection back, when it was taken
+  std::vector<drawing::Vector2> way_;      // of the lasso or the touching; empty: nothing is chosen now
   PenInput now_;
 };
 
@@ -45,6 +46,7 @@ void SelectingTool::press(const PenInput& input) {
   const bool add = input.modifiers & Qt::ShiftModifier;
   const auto around = frame();
   if (around && !add) grip_ = around->grip(input.at, input.modifiers & Qt::ControlModifier);
+  if (grip_) holding_ = sketch::holding_points(document().drawing(), document().selection());
   if (!grip_) way_ = {input.place};
   redraw_all();
 }
@@ -93,21 +95,38 @@ void SelectingTool::give_up() {
   redraw_all();
 }
 
-/// The force that resists what is dragged (thesis 4.15 and its analogues), and that of what attracts it.
-drawing::Vector2 SelectingTool::force() const {
+/// What holds back what is dragged (thesis 4.15 and its analogues), and what attracts it.
+sketch::ToolGrip SelectingTool::grip() const {
   using Part = SelectionFrame::Part;
-  const auto holding = sketch::holding_points(document().drawing(), document().selection());
+  sketch::ToolGrip held;
+  if (!grip_) return held;
+  held.start = grip_->from;
+  held.centre = grip_->about;
+  double distances = 0.0;
+  for (const drawing::Vector2& point : holding_) distances += (point - grip_->about).norm();
+  if (grip_->part == Part::Inside) held.holding = double(holding_.size());
+  if (grip_->part == Part::Knob || grip_->part == Part::Similar) held.turned = distances;
+  if (grip_->part == Part::Corner || grip_->part == Part::Similar) held.scaled = distances;
+  attract(held);
+  return held;
+}
+
+/// To where the pen would be if the selection lay on the grid, or at the angle, that attracts it.
+void SelectingTool::attract(sketch::ToolGrip& held) const {
+  if (!look().attract) return;
   const Eigen::Affine2d to = SelectionFrame::moved(*grip_, now_.place);
-  // The pen where the selection is attracted to.
   const drawing::Vector2 drawn = dragged() * to.inverse() * now_.place;
-  drawing::Vector2 sum = sketch::connect_force(now_.place, drawn, view().on_paper(kAttractedWithin));
-  const Eigen::Matrix2d linear = to.linear();
-  if (grip_->part == Part::Inside) return sum + sketch::move_force(to.translation(), holding.size());
-  const double angle = std::atan2(linear(1, 0), linear(0, 0));
-  if (grip_->part != Part::Corner) sum += sketch::turn_force(now_.place, grip_->about, angle, holding);
-  const double scaling = std::sqrt(linear.determinant());
-  if (grip_->part != Part::Knob) sum += sketch::scale_force(now_.place, grip_->about, scaling, holding);
-  return sum;
+  const drawing::Vector2 way = drawn - now_.place;
+  constexpr double kNoWay = 1e-9;  // m
+  if (way.norm() < kNoWay) return;
+  held.end = drawn;
+  held.within = view().on_paper(kAttractedWithin);
+  if (grip_->part != SelectionFrame::Part::Inside)
+    held.free = (now_.place - grip_->about).normalized();
+  else if (std::abs(way.x()) < kNoWay)
+    held.free = drawing::Vector2::UnitX();
+  else if (std::abs(way.y()) < kNoWay)
+    held.free = drawing::Vector2::UnitY();
 }
 
 void SelectingTool::paint_way(QPainter& painter) const {
@@ -130,7 +149,6 @@ void SelectingTool::paint_way(QPainter& painter) const {
 void SelectingTool::paint(QPainter& painter, const QRect& /*part*/) {
   if (!way_.empty()) return paint_way(painter);
   if (const auto around = frame()) around->paint(painter);
-  if (grip_ && look().force) paint_force(painter, now_.at, force(), view());
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ constexpr double kQuickPicture = 0.012;         // s: pictures that take longer 
 constexpr int kViewRests = 120;                 // ms
 constexpr double kPixelMetres = 0.0254 / 96.0;  // of a device-independent pixel
 constexpr double kConstantPressure = 0.5;       // of a mouse whose speed does not count
+constexpr int kPenReadings = 8;                 // ms from one look at a pen that pushes back to the next
 constexpr double kOnionOpacity = 0.25;
 constexpr double kArrowKeyStep = 1.0;  // mm; with Shift ten times as far
 constexpr double kDegreesToRadians = 0.017453292519943295;
@@ -66,6 +67,8 @@ SketchCanvas::SketchCanvas(SketchDocument& document, const SketchLook& look, QWi
   setMinimumSize(40 * kGrid, 40 * kGrid);
   late_picture_.setSingleShot(true);
   connect(&late_picture_, &QTimer::timeout, this, [this] { renew_picture(); });
+  pen_timer_.setTimerType(Qt::PreciseTimer);
+  connect(&pen_timer_, &QTimer::timeout, this, [this] { read_pen(); });
   // A pen that leaves is told to the application only.
   QApplication::instance()->installEventFilter(this);
   show_cursor();
@@ -97,6 +100,7 @@ void SketchCanvas::refresh() {
       for (const auto& stroke : layer.strokes)
         if (layer.visible && !there.contains(stroke.get())) onion_.push_back(stroke);
   }
+  if (felt_pen_ != nullptr) felt_pen_->resize(document_.drawing().size);
   // The paper may be another one.
   if (is_fitted_ && contact_ == Contact::None) view_.fit(document_.drawing().size, size());
   renew_picture();
@@ -162,6 +166,9 @@ void SketchCanvas::paintEvent(QPaintEvent* event) {
   if (!document_.selection().empty())
     paint_selection(painter, document_.shown(), document_.selection(), view_);
   used().paint(painter, part);
+  if (look_.force && contact_ == Contact::Tool)
+    paint_force(painter, last_.at, sketch::tool_force(used().grip(), last_.place).force, view_);
+  if (felt_) paint_pen(painter);
   if (hasFocus()) {
     painter.setRenderHint(QPainter::Antialiasing, false);
     painter.setPen(colours().accent);
@@ -248,6 +255,61 @@ void SketchCanvas::tabletEvent(QTabletEvent* event) {
   pen_is_down_ = is_down;
 }
 
+// A pen that pushes back.
+
+void SketchCanvas::take_pen(sketch::FeltPen* pen) {
+  felt_pen_ = pen;
+  felt_.reset();
+  if (pen == nullptr) return pen_timer_.stop();
+  pen->resize(document_.drawing().size);
+  pen_timer_.start(kPenReadings);
+}
+
+void SketchCanvas::read_pen() {
+  const std::vector<sketch::PenReading> readings = felt_pen_->take();
+  for (const sketch::PenReading& reading : readings) follow_pen(reading, &reading == &readings.back());
+  felt_pen_->hold(contact_ == Contact::Tool ? used().grip() : sketch::ToolGrip{});
+  felt_pen_->turn_around(eraser_end_ || tool_ == SketchToolKind::Eraser);
+}
+
+void SketchCanvas::follow_pen(const sketch::PenReading& reading, bool is_last) {
+  constexpr std::uint32_t kEraserButton = 1;
+  const bool was_down = felt_ && felt_->pressure > 0.0, is_down = reading.pressure > 0.0;
+  const bool has_moved = !felt_ || felt_->place != reading.place || felt_->pressure != reading.pressure;
+  felt_ = reading;
+  PenInput input{.at = view_.to_screen(reading.place), .place = reading.place, .time = reading.time};
+  input.pressure = reading.pressure;
+  input.is_pen = true;
+  if (is_down && !was_down) {
+    eraser_end_ = (reading.buttons & kEraserButton) != 0;
+    begin(input, false);
+  } else if (was_down && !is_down) {
+    end(last_);
+    eraser_end_ = false;
+  } else if (has_moved && (is_last || (is_down && used().follows_all()))) {
+    go_on(input);
+  }
+  if (is_last && has_moved) update();
+}
+
+/// A ring where the tip is, or would come down.
+void SketchCanvas::paint_pen(QPainter& painter) const {
+  constexpr double kOnPaper = 3.0, kMostAbove = 14.0;  // pixels
+  const double above = felt_->height * felt_pen_->scale() / view_.on_paper(1.0);
+  painter.setPen(overlay_pen());
+  const double radius = kOnPaper + std::min(above, kMostAbove);
+  painter.drawEllipse(view_.to_screen(felt_->place), radius, radius);
+}
+
+/// Does the mouse move a simulated pen in place of what it does else?
+bool SketchCanvas::moves_pen(const QMouseEvent& event) {
+  const bool shifts = space_ || contact_ == Contact::Shift || (event.buttons() & Qt::MiddleButton);
+  if (felt_pen_ == nullptr || !felt_pen_->is_simulated() || shifts) return false;
+  const PenInput input = input_of(event);
+  felt_pen_->aim(input.place, event.buttons() & Qt::LeftButton ? input.pressure : 0.0);
+  return true;
+}
+
 bool SketchCanvas::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::TabletLeaveProximity && pen_is_down_) {
     end(last_);
@@ -259,14 +321,17 @@ bool SketchCanvas::eventFilter(QObject* watched, QEvent* event) {
 
 void SketchCanvas::mousePressEvent(QMouseEvent* event) {
   mouse_ = {};
+  if (moves_pen(*event)) return;
   const bool shifts = event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && space_);
   if (shifts || event->button() == Qt::LeftButton) begin(input_of(*event), shifts);
 }
 
-void SketchCanvas::mouseMoveEvent(QMouseEvent* event) { go_on(input_of(*event)); }
+void SketchCanvas::mouseMoveEvent(QMouseEvent* event) {
+  if (!moves_pen(*event)) go_on(input_of(*event));
+}
 
 void SketchCanvas::mouseReleaseEvent(QMouseEvent* event) {
-  if (event->buttons() == Qt::NoButton) end(input_of(*event));
+  if (!moves_pen(*event) && event->buttons() == Qt::NoButton) end(input_of(*event));
 }
 
 void SketchCanvas::wheelEvent(QWheelEvent* event) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 
+#include "sketch/feel/felt_pen.h"
 #include "sketch/pen/mouse_pressure.h"
 #include "ui/sketch/canvas_tool.h"
 #include "ui/sketch/stroke_picture.h"
@@ -32,6 +33,10 @@ class SketchCanvas final : public QWidget {
   /// Backs out of a drag, else of the selection.
   void back_out();
 
+  /// Takes a pen that pushes back from now on, which outlives this; the mouse moves the hand of a simulated
+  /// one. Null: none.
+  void take_pen(sketch::FeltPen* pen);
+
   /// Hears of each place (m) that the pointer comes to, and of a pen's tilt (rad from upright).
   void on_pointer(std::function<void(const PenInput&)> pointer) { pointer_ = std::move(pointer); }
 
@@ -58,6 +63,10 @@ class SketchCanvas final : public QWidget {
   void begin(const PenInput& input, bool shifts);
   void go_on(const PenInput& input);
   void end(const PenInput& input);
+  bool moves_pen(const QMouseEvent& event);
+  void read_pen();
+  void follow_pen(const sketch::PenReading& reading, bool is_last);
+  void paint_pen(QPainter& painter) const;
   void change_view(const std::function<void(PaperView&)>& change);
   void renew_picture();
   void paint_onion(QPainter& painter);
@@ -75,10 +84,13 @@ class SketchCanvas final : public QWidget {
   double whole_picture_seconds_ = 0.0;         // what the last one took
   QTimer late_picture_;                        // while the view changes and pictures take long
   Contact contact_ = Contact::None;
-  bool pen_is_down_ = false;        // that of a tablet
-  bool eraser_end_ = false;         // of the pen that is down
-  bool is_fitted_ = true;           // the paper is seen whole, also when the canvas changes its size
-  bool space_ = false, r_ = false;  // keys that are held
+  bool pen_is_down_ = false;  // that of a tablet
+  bool eraser_end_ = false;   // of the pen that is down
+  sketch::FeltPen* felt_pen_ = nullptr;
+  QTimer pen_timer_;                        // reads it
+  std::optional<sketch::PenReading> felt_;  // its last reading
+  bool is_fitted_ = true;                   // the paper is seen whole, also when the canvas changes its size
+  bool space_ = false, r_ = false;          // keys that are held
   PenInput last_;
   sketch::MousePressure mouse_;
   std::function<void(const PenInput&)> pointer_ = [](const PenInput&) {};

@@ -59,6 +59,7 @@ constexpr int kDockWidth = 75 * kGrid;
 constexpr double kZoomStep = 1.25;
 constexpr double kTurnStep = 15.0;  // degrees
 constexpr int kRemarkStays = 6000;  // ms
+constexpr int kPenNews = 500;       // ms
 constexpr const char* kNoSketchDisplayWays =
     "`icome sketch edit` changes a drawing without one, and `icome sketch render` makes a picture of it.";
 
@@ -120,6 +121,7 @@ SketchWindow::SketchWindow(const QString& settings, QWidget* parent)
 }
 
 SketchWindow::~SketchWindow() {
+  canvas_->take_pen(nullptr);
   keep_look(look_, *settings_);
   settings_->setValue("window/geometry", saveGeometry());
   settings_->setValue("window/state", saveState(kSketchLayout));
@@ -316,6 +318,34 @@ void SketchWindow::show_pointer(const PenInput& input) {
   place_->setText(text);
 }
 
+void SketchWindow::take_pen(std::unique_ptr<sketch::FeltPen> pen) {
+  felt_pen_ = std::move(pen);
+  canvas_->take_pen(felt_pen_.get());
+  pen_->offer_papers(felt_pen_->paper().name, [this](const sketch::Paper& paper) { felt_pen_->lay(paper); });
+  auto* device = new QLabel(this);
+  device->setObjectName("status.pen");
+  device->setText(QString("%1, 1 : %2")
+                      .arg(QString::fromStdString(felt_pen_->info().name))
+                      .arg(felt_pen_->scale(), 0, 'g', 2));
+  device->setToolTip("The pen that pushes back, and how much farther it goes on the paper than in the hand");
+  statusBar()->addPermanentWidget(device);
+  connect(&pen_news_, &QTimer::timeout, this, [this] { tell_of_pen(); });
+  pen_news_.start(kPenNews);
+}
+
+/// What a person should know about the pen's device, above the paper while it holds.
+void SketchWindow::tell_of_pen() {
+  const std::string condition = felt_pen_->condition();
+  if (condition == pen_told_) return;
+  pen_told_ = condition;
+  constexpr const char* kTopic = "pen";
+  banner_->forget(kTopic);
+  if (!condition.empty())
+    banner_->tell({.weight = Note::Weight::Warning,
+                   .text = felt_pen_->info().name + ": " + condition,
+                   .topic = kTopic});
+}
+
 void SketchWindow::show_hint() { hint_->setText(sketch_entry(canvas_->tool()).hint); }
 
 void SketchWindow::show_shortcuts() {
@@ -338,11 +368,12 @@ void SketchWindow::closeEvent(QCloseEvent* event) {
   });
 }
 
-void open_sketch_window(const std::filesystem::path& file) {
+SketchWindow& open_sketch_window(const std::filesystem::path& file) {
   auto* window = new SketchWindow;
   window->setAttribute(Qt::WA_DeleteOnClose);
   window->show();
   if (!file.empty()) window->open(file);
+  return *window;
 }
 
 void choose_sketch(QWidget& parent) {
@@ -356,14 +387,15 @@ void choose_sketch(QWidget& parent) {
   dialog->open();
 }
 
-int run_sketch_window(int argc, char** argv, const SketchWindowOptions& options) {
+int run_sketch_window(int argc, char** argv, SketchWindowOptions options) {
   const auto application = connect_display(argc, argv, kNoSketchDisplayWays);
   if (!application) return 1;
   // Lines follow the hand better with all that the mouse reports.
   QApplication::setAttribute(Qt::AA_CompressHighFrequencyEvents, false);
   const std::string kept = QSettings("icome", "icome").value("theme").toString().toStdString();
   apply_theme(*application, theme_of(options.theme.empty() ? kept : options.theme).value_or(Theme::System));
-  open_sketch_window(options.file);
+  SketchWindow& window = open_sketch_window(options.file);
+  if (options.pen) window.take_pen(std::move(options.pen));
   return QApplication::exec();
 }
 

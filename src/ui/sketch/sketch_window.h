@@ -27,6 +27,9 @@ class SketchWindow final : public QMainWindow {
   /// Opens a drawing or a recording of a pen; what goes wrong stands above the paper.
   void open(const std::filesystem::path& file) { files_.open(file); }
 
+  /// Draws with a pen that pushes back from now on, on the paper that it has.
+  void take_pen(std::unique_ptr<sketch::FeltPen> pen);
+
   SketchDocument& document() { return document_; }
   SketchCanvas& canvas() { return *canvas_; }
   SketchLook& look() { return look_; }
@@ -50,6 +53,7 @@ class SketchWindow final : public QMainWindow {
   void show_document();
   void show_pointer(const PenInput& input);
   void show_hint();
+  void tell_of_pen();
   void show_shortcuts();
 
   std::unique_ptr<QSettings> settings_;
@@ -65,10 +69,13 @@ class SketchWindow final : public QMainWindow {
   std::vector<QAction*> of_selection_;  // that need one
   QLabel *hint_ = nullptr, *place_ = nullptr, *count_ = nullptr;
   bool agreed_ = false;  // a person has agreed to close
+  std::unique_ptr<sketch::FeltPen> felt_pen_;
+  QTimer pen_news_;       // tells of its device
+  std::string pen_told_;  // about it, last
 };
 
 /// Opens a window of its own for a drawing, which is gone when it is closed; an empty page without a file.
-void open_sketch_window(const std::filesystem::path& file);
+SketchWindow& open_sketch_window(const std::filesystem::path& file);
 /// Asks which drawing, and opens it likewise.
 void choose_sketch(QWidget& parent);
 
