@@ -13,7 +13,8 @@ constexpr double kQuickLength = 0.0003;  // m
 constexpr double kSlowForce = 0.78;      // N
 constexpr double kSlowLength = 0.04;     // m
 
-constexpr double kNearCentre = 0.5;  // of the arm of a turn when it was taken: nearer, its force fades
+constexpr double kNearCentre =
+    0.5;  // of the arm when it was taken: nearer, forces of turns and scalings fade
 
 /// A force of that strength (N) against a direction of any length; none where it has none.
 Vector2 against(const Vector2& direction, double strength) {
@@ -54,7 +55,9 @@ class Summing {
     if (!(grip_.scaled > 0.0) || !(taken_at > 0.0)) return;
     const double more = arm.norm() / taken_at - 1.0;
     const double translations = grip_.scaled * std::abs(more);
-    add(against(std::copysign(1.0, more) * arm, resistance(grip_.softness * translations)),
+    // At the centre itself the arm has no direction.
+    const double fading = std::min(1.0, arm.norm() / (kNearCentre * taken_at));
+    add(against(std::copysign(1.0, more) * arm, fading * resistance(grip_.softness * translations)),
         taken_at * std::abs(more));
   }
 

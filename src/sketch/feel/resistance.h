@@ -39,7 +39,7 @@ struct ToolGrip {
 /// - Against a move, and against the curve that is pulled: by the way, times the holding points.
 /// - Against a turn: across the arm, by the sum of the translations of the holding points; less far from the
 ///   centre, as a torque, fading near it, and where it has gone half around.
-/// - Against a scaling: along the arm, by the sum of those translations.
+/// - Against a scaling: along the arm, by the sum of those translations; fading near the centre.
 /// - Towards an end: from nothing at the distance `within` on, greatest on the way, and nothing at the end.
 struct ToolForce {
   Vector2 force = Vector2::Zero();

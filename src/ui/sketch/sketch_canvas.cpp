@@ -286,8 +286,11 @@ void SketchCanvas::follow_pen(const sketch::PenReading& reading, bool is_last) {
   } else if (was_down && !is_down) {
     end(last_);
     eraser_end_ = false;
-  } else if (has_moved && (is_last || (is_down && used().follows_all()))) {
+  } else if (has_moved && is_last) {
     go_on(input);
+  } else if (has_moved && contact_ == Contact::Tool && used().follows_all()) {
+    last_ = input;
+    used().drag(input);
   }
   if (is_last && has_moved) update();
 }
