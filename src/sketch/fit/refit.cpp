@@ -187,8 +187,11 @@ std::vector<CubicFit> fewest_breaking_cubics(const StrokePath& path, std::size_t
 
 std::vector<CubicBezier> few_cubics(const StrokePath& path, std::size_t first, std::size_t last,
                                     double within) {
+  const double length = path.along[last] - path.along[first];
+  // A stroke that is much smaller than the distance has no length.
+  if (!(length > 0.0)) return {CubicBezier::line(path.points[first], path.points[last])};
   const std::vector<CubicBezier> breaking = curves_of(fewest_breaking_cubics(path, first, last, within));
-  const double apart = (path.along[last] - path.along[first]) / (kPointsOfASegment * double(breaking.size()));
+  const double apart = length / (kPointsOfASegment * double(breaking.size()));
   const std::vector<Vector2> points = close_points(path, first, last, apart);
   // Beginning with too few leaves the fewest, mostly; where it does not, beginning with enough may.
   std::vector<CubicBezier> best =

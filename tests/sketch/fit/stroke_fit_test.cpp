@@ -250,6 +250,25 @@ TEST(FitStroke, TheCornersOfASquareAreKeptHoweverItIsSampled) {
   }
 }
 
+// It asked for all memory: a way that ends where it began, and was nowhere far from there.
+TEST(FitStroke, AClosedStrokeThatIsSmallerThanTheBoundIsADot) {
+  for (const double size : {1e-6, 0.001, 0.02, 0.3}) {
+    PenStroke stroke;
+    for (int i = 0; i <= 64; ++i) {
+      const double there = std::sin(M_PI * i / 32.0);  // there and back, and the other way
+      stroke.push_back({0.001 * i, size * Vector2(there, 1.3 * there), 0.5});
+    }
+    stroke.back().place = stroke.front().place;
+    FitSettings settings;
+    settings.error = 1.0;
+    const FittedStroke fitted = fit_stroke(stroke, settings);
+    ASSERT_FALSE(fitted.curve.segments.empty());
+    for (const CubicBezier& segment : fitted.curve.segments)
+      for (const Vector2& point : segment.points) EXPECT_TRUE(point.allFinite());
+    EXPECT_LE(fitted.error, settings.error);
+  }
+}
+
 TEST(FitStroke, ACircleHasNoCorner) {
   for (const int samples : {60, 500, 5000}) {
     for (const bool refit : {true, false})

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <random>
 
 #include "sketch/script/sketch_tool.h"
@@ -12,11 +11,11 @@ using interaction::Parameter;
 using interaction::ParameterKind;
 using interaction::Value;
 
-/// 600, or as many as ICOME_SKETCH_EDITS says for a longer try.
-int random_edits() {
-  const char* const count = std::getenv("ICOME_SKETCH_EDITS");
-  return count != nullptr ? std::atoi(count) : 600;
-}
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kRandomEdits = 600;
+#else
+constexpr int kRandomEdits = 10'000;
+#endif
 
 std::string said(SketchRunner& runner, const char* line) {
   const auto done = runner.perform(*interaction::value_from_json(line));
@@ -84,8 +83,7 @@ TEST(SketchRunner, UndoOfRandomEditsGivesTheFirstDrawingAndRedoTheLast) {
   RandomCommands commands(1);
   std::uint64_t next_id = runner.drawing().next_id;
   int good = 0;
-  const int edits = random_edits();
-  for (int i = 0; i < edits; ++i) {
+  for (int i = 0; i < kRandomEdits; ++i) {
     if (runner.drawing().stroke_count() > 40) {  // copies of copies would fill the memory
       said(runner, R"({"op": "select-all"})");
       said(runner, R"({"op": "delete"})");
@@ -97,7 +95,7 @@ TEST(SketchRunner, UndoOfRandomEditsGivesTheFirstDrawingAndRedoTheLast) {
     ASSERT_GE(runner.drawing().next_id, next_id);  // ids are never given twice
     next_id = runner.drawing().next_id;
   }
-  EXPECT_GT(good, edits / 4);
+  EXPECT_GT(good, kRandomEdits / 4);
   while (said(runner, R"({"op": "redo"})").empty()) {
   }
   const std::uint64_t last = hash_of(runner.drawing());
