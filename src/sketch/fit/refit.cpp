@@ -14,7 +14,7 @@ constexpr double kAimOfFit = 0.95;
 constexpr double kResolutionOfFit = 0.02;  // of the distance allowed
 constexpr int kRoundsForAll = 30;          // of bringing near
 constexpr int kRoundsForFew = 25;
-constexpr std::size_t kBeside = 2;  // segments on either side that move when a joint is taken out
+constexpr std::size_t kBeside = 8;  // segments on either side that move when a joint is taken out
 constexpr int kMostCuttings = 40;
 constexpr double kPointsOfASegment = 24.0;  // that a segment of the fewest is held against
 

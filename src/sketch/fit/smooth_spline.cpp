@@ -13,11 +13,12 @@ namespace {
 constexpr std::size_t kUnknowns = 5;   // of a joint: handle before, x, y, direction, handle after
 constexpr double kAlongWeight = 0.03;  // of distance along the curve beside that across it
 constexpr int kEvenRounds = 3;         // rounds in which all distances count alike
-constexpr double kHighPower = 8.0;     // of distances, afterwards
+constexpr double kHighPower = 16.0;    // of distances, afterwards
 constexpr double kLeastWeight = 1e-3;  // of a point that the curve goes through, beside the farthest
 constexpr int kStepsAtFirst = 8;       // of Newton's method, to find where points belong on the curve
 constexpr int kStepsAgain = 2;
-constexpr double kShortened = 0.1;  // of a handle, at most this is left by a round
+constexpr double kShortened = 0.1;        // of a handle, at most this is left by a round
+constexpr double kShortestHandle = 1e-3;  // of the distance that is enough, or it has no direction
 constexpr double kFirstDamping = 1e-3;
 constexpr double kMoreDamping = 8.0;   // after each attempt
 constexpr double kLessDamping = 0.02;  // after one that was better
@@ -207,11 +208,11 @@ SmoothSpline SmoothSpline::moved_by(const std::vector<double>& step) const {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     Joint& joint = moved.joints_[j];
     const double* of_joint = step.data() + kUnknowns * j;
-    // A handle that would turn over only gets short.
-    joint.before = std::max(kShortened * joint.before, joint.before + of_joint[0]);
+    // A handle that would turn over only gets short, and keeps its direction.
+    joint.before = std::max({kShortestHandle, kShortened * joint.before, joint.before + of_joint[0]});
     joint.place += Vector2(of_joint[1], of_joint[2]);
     joint.direction += of_joint[3];
-    joint.after = std::max(kShortened * joint.after, joint.after + of_joint[4]);
+    joint.after = std::max({kShortestHandle, kShortened * joint.after, joint.after + of_joint[4]});
   }
   return moved;
 }
