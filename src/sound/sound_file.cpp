@@ -62,7 +62,8 @@ Result<Samples> read_sound(const std::filesystem::path& file, const SoundLimits&
   const std::string name = file.string();
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
-    return fail(fmt::format("{}: there is no such file", name));
+    return fail(fmt::format("{}: {}", name,
+                            std::filesystem::exists(file, error) ? "is no file" : "there is no such file"));
   SF_INFO info{};
   const std::unique_ptr<SNDFILE, CloseSound> sound(sf_open(file.c_str(), SFM_READ, &info));
   if (!sound) return fail(fmt::format("{}: is no sound that can be read: {}", name, sf_strerror(nullptr)));

@@ -1,4 +1,5 @@
 """Runs icome animate as a person would: makes projects by script, renders and records them."""
+import fcntl
 import gzip
 import json
 import math
@@ -228,6 +229,26 @@ class Animate(unittest.TestCase):
         (self.folder / "sound.cutout").write_text('cutout = 1\n[sound]\nfile = "gone.wav"\n')
         self.assertEqual([it["file"] for it in animate_json(self.folder / "sound.cutout")["missing"]], ["gone.wav"])
 
+    def test_frames_need_no_sound_and_films_that_lack_it_are_told(self):
+        project = self.small_project()
+        project.write_text(project.read_text() + '\n[sound]\nfile = "gone.wav"\n')
+        done = animate(project, "--out", self.folder / "a.png", "--frames", "0")
+        self.assertEqual(done.stderr, "")
+        if shutil.which("ffmpeg"):
+            done = animate(project, "--out", self.folder / "a.mp4", code=1)
+            self.assertIn("The film is silent: gone.wav", done.stderr)
+            self.assertTrue((self.folder / "a.mp4").is_file())
+
+    def test_what_is_open_in_a_window_is_not_saved_over(self):
+        project = self.small_project()
+        before = project.read_bytes()
+        with (self.folder / ".small.cutout.journal").open("w") as journal:
+            fcntl.flock(journal, fcntl.LOCK_EX)
+            done = animate(project, "--apply", self.script({"op": "mark", "frame": 3, "text": "a"}), "--save", project,
+                           code=1)
+        self.assertIn("small.cutout: is open in a window", done.stderr)
+        self.assertEqual(project.read_bytes(), before)
+
     def test_both_examples_are_whole(self):
         for name in ("boat", "walk"):
             told = animate_json(EXAMPLES / name / f"{name}.cutout")
@@ -399,6 +420,33 @@ class Record(unittest.TestCase):
             self.assertIn(words, done.stderr)
         done = animate("new", "--apply", script, "--record", "made", *known, cwd=self.folder, code=1)
         self.assertIn("--record needs --save", done.stderr)
+        script.write_text(cell + mapping + '{"op": "stage", "length": 20}\n')
+        record = ["new", "--apply", script, "--record", "made", *known]
+        done = animate(*record, "--save", "x.cutout", "--from", 20, cwd=self.folder, code=1)
+        self.assertIn("--from is 20, but the last frame is 19", done.stderr)
+        done = animate(*record, "--save", "no/x.cutout", cwd=self.folder, code=1)
+        self.assertIn("no", done.stderr)
+        self.assertEqual(list(self.folder.glob("*x.cutout*")), [], "nothing was recorded")
+        told = json.loads(animate(*record, "--save", "x.cutout", "--json", cwd=self.folder).stdout)
+        self.assertIn("ended with the animation, at frame 19", told["notes"][0])
+
+    def test_a_recording_is_rescued_where_its_file_cannot_be_written_any_more(self):
+        with self.begin_recording(self.slow_source()) as recording:
+            for _ in range(1200):
+                if (self.folder / ".kept.cutout.journal").exists():
+                    break
+                time.sleep(0.05)
+            kept = self.folder / "kept.cutout"
+            kept.unlink()
+            kept.mkdir()  # no file can take its name now
+            time.sleep(1)
+            recording.send_signal(signal.SIGINT)
+            said = recording.communicate(timeout=120)[1]
+            self.assertEqual(recording.returncode, 1)
+        kept.rmdir()
+        rescued = pathlib.Path(re.search(r"the recording was saved as (\S+) in its place", said)[1])
+        self.assertIn("keys", cell_in(rescued, "a"))
+        rescued.unlink()
 
 
 if __name__ == "__main__":

@@ -71,8 +71,10 @@ Result<ExportReport> export_animation(const Project& project, const StatesAt& st
   report.format = kFormatNames[std::size_t(names->format)];
   report.frames = frames;
   report.seconds = frames / project.stage.rate;
-  for (const PictureProblem& problem : picture_problems(project, pictures))
+  for (const PictureProblem& problem : picture_problems(project, pictures)) {
     report.remarks.push_back(fmt::format("A crossed frame is shown for a picture: {}.", problem.message));
+    report.is_whole = false;
+  }
   const auto written =
       is_sequence(names->format) ? write_sequence(maker, *names, report) : write_film(maker, *names, report);
   if (!written) return tl::unexpected(written.error());

@@ -34,6 +34,7 @@ struct ExportReport {
   double seconds = 0;                ///< of the animation
   std::vector<std::string> files;    ///< that were written
   std::vector<std::string> remarks;  ///< sentences on what came out otherwise, such as missing pictures
+  bool is_whole = true;              ///< neither a picture nor the sound was missing
 };
 
 /// The states of all cells at a frame.
@@ -43,7 +44,8 @@ using StatesAt = std::function<CellStates(int frame)>;
 /// program itself, MP4, WebM, GIF and APNG by the program ffmpeg. The same project gives the same bytes each
 /// time, with the same ffmpeg. Everything appears whole or not at all: until all is done, it is written
 /// beside and under other names, which a stop and a failure take away. Pictures that are missing are crossed
-/// frames, and remarks tell. Fails with a sentence that names the file or says what to install.
+/// frames, a sound that is missing is silence, and remarks tell. Fails with a sentence that names the file or
+/// says what to install.
 base::Result<ExportReport> export_animation(const Project& project, const StatesAt& states_at,
                                             CellPictures& pictures, const std::string& out,
                                             const ExportOptions& options = {});

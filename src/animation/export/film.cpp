@@ -153,11 +153,16 @@ struct FilmSound {
   int channels;
 };
 
-Result<FilmSound> film_sound(const FrameMaker& maker) {
+/// None where the project's sound cannot be read, which the report tells.
+Result<std::optional<FilmSound>> film_sound(const FrameMaker& maker, ExportReport& report) {
   const Sound& sound = *maker.project().sound;
   const auto track =
       read_track(maker.pictures().folder(), sound, kTrackRate, maker.pictures().options().reach);
-  if (!track) return tl::unexpected(track.error());
+  if (!track) {
+    report.remarks.push_back(fmt::format("The film is silent: {}.", track.error().message));
+    report.is_whole = false;
+    return std::nullopt;
+  }
   auto file = nameless_file();
   if (!file) return tl::unexpected(file.error());
   const double rate = maker.project().stage.rate;
@@ -224,9 +229,11 @@ Result<void> write_film(FrameMaker& maker, const OutputNames& names, ExportRepor
   std::optional<FilmSound> sound;
   std::optional<NamelessFile> palette;
   if (maker.project().sound && maker.options().sound && is_video) {
-    auto made = film_sound(maker);
+    auto made = film_sound(maker, report);
     if (!made) return tl::unexpected(made.error());
     sound = std::move(*made);
+  }
+  if (sound) {
     append(words, sound_words(*sound));
     files.push_back({::fileno(sound->file.get()), kSoundDescriptor});
   }

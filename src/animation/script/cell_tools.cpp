@@ -318,7 +318,7 @@ std::vector<AnimationTool> cell_tools() {
         .parameters = {pictures_parameter(), text_parameter("name", "its name; the file's, else", false),
                        layer_parameter(false), place_parameter("place", "where its pivot lies on the stage"),
                        place_parameter("pivot", "about which it turns, in its picture"),
-                       with_fallback(number_parameter("scale", "1: as large as its picture", -1e4, 1e4), 1),
+                       with_fallback(number_parameter("scale", "1: as large as its picture", 0, 1e4), 1),
                        with_fallback(number_parameter("angle", "degrees, counter-clockwise", -36e4, 36e4), 0),
                        with_fallback(number_parameter("opacity", "1: nothing is seen through it", 0, 1), 1)}},
        plan_new_cell},

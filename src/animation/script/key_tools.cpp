@@ -98,7 +98,7 @@ std::vector<Parameter> value_parameters() {
   return {number_parameter("x", "px", -kFarthest, kFarthest),
           number_parameter("y", "px, down", -kFarthest, kFarthest),
           number_parameter("angle", "degrees, counter-clockwise; beyond 360 it turns on", -36e6, 36e6),
-          number_parameter("scale", "1: as large as its picture; for the camera: the zoom", -1e4, 1e4),
+          number_parameter("scale", "1: as large as its picture; for the camera: the zoom", 0, 1e4),
           number_parameter("opacity", "0 to 1", 0, 1),
           {.name = "picture",
            .kind = ParameterKind::Count,

@@ -1,6 +1,7 @@
 #include "apps/animate/animate_command.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <optional>
 
@@ -67,15 +68,11 @@ class AnimateRun {
       if (const int exit_code = apply(); exit_code != 0) return exit_code;
     }
     if (!options_.record.empty()) {
-      const auto recorded = record_hands(options_, *runner_, pictures_,
-                                         [this](const animation::ProjectEdit& part) { keep_part(part); });
-      if (!recorded) return animate_failed(recorded.error().message);
-      if (interrupted() && recorded->frames == 0) return kAnimateInterrupted;
-      report_.recorded = *recorded;
+      if (const int exit_code = record(); exit_code != 0) return exit_code;
     }
     const bool good = may_save();
     if (good && !options_.save.empty()) {
-      if (const auto saved = save(); !saved) return animate_failed(saved.error().message);
+      if (const auto saved = save(); !saved) return animate_failed(saved.error().message + rescued());
       if (journal_) journal_->remove();
     }
     if (good && !options_.out.empty()) {
@@ -122,36 +119,69 @@ class AnimateRun {
 
   bool may_save() const { return report_.outcome.errors.empty() || options_.keep_going; }
 
-  /// Keeps a part of the recording in the journal of the file that is to have all of it: what a crash leaves
-  /// is taken up when that file is read again. Before the first part the file is written as it is by then.
-  void keep_part(const animation::ProjectEdit& part) {
-    if (options_.save.empty() || !may_save() || cannot_keep_) return;
-    const auto kept = [&]() -> base::Result<void> {
-      if (!journal_) {
-        if (animation::ProjectJournal::is_open(options_.save))
-          return base::fail(options_.save.string() + " is open in another program.");
-        if (const auto saved = save(); !saved) return saved;
-        auto journal = animation::ProjectJournal::open(options_.save);
-        if (!journal) return tl::unexpected(journal.error());
-        journal_.emplace(std::move(*journal));
-      }
-      return journal_->add(part, animation::ProjectJournal::Line::Part);
-    }();
+  int record() {
+    const RecordingKeeper keeper = {[this] { return begin_keeping(); },
+                                    [this](const animation::ProjectEdit& part) { keep(part); }};
+    const auto recorded = record_hands(options_, *runner_, pictures_, keeper);
+    if (!recorded) return animate_failed(recorded.error().message);
+    if (interrupted() && recorded->frames == 0) return kAnimateInterrupted;
+    report_.recorded = *recorded;
+    if (recorded->reached_end)
+      note(
+          fmt::format("The recording ended with the animation, at frame {}; a longer one (the tool stage) "
+                      "takes more of the source.",
+                      runner_->project().stage.length - 1));
+    return 0;
+  }
+
+  /// A recording goes into the journal of the file that is to have all of it: what a crash leaves is taken up
+  /// when that file is read again. So the file is written before, as the project is by then.
+  base::Result<void> begin_keeping() {
+    if (options_.save.empty() || !may_save()) return {};
+    if (const auto saved = save(); !saved) return saved;
+    auto journal = animation::ProjectJournal::open(options_.save);
+    if (!journal) return tl::unexpected(journal.error());
+    journal_.emplace(std::move(*journal));
+    return {};
+  }
+
+  void keep(const animation::ProjectEdit& part) {
+    if (!journal_ || cannot_keep_) return;
+    const auto kept = journal_->add(part, animation::ProjectJournal::Line::Part);
     if (kept) return;
     cannot_keep_ = true;
     status_.clear();
-    note(kept.error().message + " The recording is not safe from a crash until it has ended.");
+    note(fmt::format("{}: from here on the recording is not safe from a crash.", kept.error().message));
+  }
+
+  /// Saves a recording elsewhere where its file cannot be written; the end of a sentence that tells.
+  std::string rescued() {
+    if (!report_.recorded) return {};
+    std::error_code error;
+    const auto folder = std::filesystem::temp_directory_path(error);
+    if (error) return {};
+    const auto elsewhere =
+        folder / fmt::format("{}-{}.cutout", options_.save.stem().string(), std::uint64_t(::getpid()));
+    if (const auto saved = save_as(elsewhere); !saved) return fmt::format("; {}", saved.error().message);
+    return fmt::format("; the recording was saved as {} in its place", elsewhere.string());
   }
 
   base::Result<void> save() {
-    // In another folder the same files have other names.
-    animation::Project project = runner_->project();
-    const std::filesystem::path to = options_.save.parent_path();
-    const auto renamed = apply_edit(project, animation::renamed_files(project, folder_, to));
-    if (!renamed) return tl::unexpected(renamed.error());
-    const auto saved = animation::write_project_file(project, options_.save);
+    if (!journal_ && animation::ProjectJournal::is_open(options_.save))
+      return base::fail(fmt::format(
+          "{}: is open in a window, or a recording into it goes on; close that, or save under another name",
+          options_.save.string()));
+    const auto saved = save_as(options_.save);
     report_.saved = saved.has_value();
     return saved;
+  }
+
+  base::Result<void> save_as(const std::filesystem::path& file) {
+    // In another folder the same files have other names.
+    animation::Project project = runner_->project();
+    const auto renamed = apply_edit(project, animation::renamed_files(project, folder_, file.parent_path()));
+    if (!renamed) return tl::unexpected(renamed.error());
+    return animation::write_project_file(project, file);
   }
 
   base::Result<void> render() {
@@ -174,8 +204,8 @@ class AnimateRun {
     status_.clear();
     for (const std::string& remark : written->remarks) note(remark);
     const animation::FrameRange frames = range->value_or(animation::FrameRange{0, project.stage.length - 1});
-    report_.written = WrittenFrames{options_.out,   frames.first,    frames.last,
-                                    written->width, written->height, written->files.size()};
+    report_.written = WrittenFrames{options_.out,    frames.first,          frames.last,      written->width,
+                                    written->height, written->files.size(), written->is_whole};
     return {};
   }
 
@@ -187,7 +217,7 @@ class AnimateRun {
     }
     if (!report_.written)
       for (const animation::PictureProblem& problem : report_.missing) tell(problem.message);
-    const bool is_whole = !report_.written || report_.missing.empty();
+    const bool is_whole = !report_.written || report_.written->is_whole;
     const bool good =
         report_.outcome.errors.empty() && is_whole && !(report_.recorded && report_.recorded->broke_off);
     if (options_.json) {

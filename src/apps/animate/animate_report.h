@@ -14,8 +14,9 @@ namespace icome::apps {
 struct RecordedHands {
   std::size_t frames = 0;  // of the source
   std::uint64_t dropped = 0;
-  std::size_t keys = 0;    // that it made
-  bool broke_off = false;  // the source failed, such as a camera that was unplugged
+  std::size_t keys = 0;      // that it made
+  bool broke_off = false;    // the source failed, such as a camera that was unplugged
+  bool reached_end = false;  // the animation ended before the source did
 };
 
 /// The pictures that were written.
@@ -24,6 +25,7 @@ struct WrittenFrames {
   int first = 0, last = 0;
   int width = 0, height = 0;  // px
   std::size_t files = 0;
+  bool is_whole = true;  // neither a picture nor the sound was missing
 };
 
 /// Everything that a run of icome animate has to tell.

@@ -63,9 +63,9 @@ class HandRecording {
  public:
   HandRecording(const AnimateOptions& options, Project project, cutout::KnownTriangles known,
                 animation::CellPictures& pictures, std::optional<animation::LayerId> layer,
-                const KeepPart& keep_part)
+                const RecordingKeeper& keeper)
       : options_(options),
-        keep_part_(keep_part),
+        keeper_(keeper),
         project_(std::move(project)),
         known_(std::move(known)),
         pictures_(pictures),
@@ -95,7 +95,10 @@ class HandRecording {
       const auto goes_on = take(**next, track);
       if (!goes_on) return tl::unexpected(goes_on.error());
       ++recorded.frames;
-      if (!*goes_on) break;
+      if (!*goes_on) {
+        recorded.reached_end = at_end_;
+        break;
+      }
       keep_what_came((*next)->time);
     }
     status_.clear();
@@ -109,7 +112,7 @@ class HandRecording {
   void keep_what_came(double time) {
     if (time < kept_until_ + kPartSeconds) return;
     kept_until_ = time;
-    if (const animation::ProjectEdit part = recording_.next_part(); !part.empty()) keep_part_(part);
+    if (const animation::ProjectEdit part = recording_.next_part(); !part.empty()) keeper_.keep(part);
   }
 
   /// False at the end of the animation, or of the time that was asked for.
@@ -117,6 +120,7 @@ class HandRecording {
     if (!tracker_) {
       const auto view = view_for(track, frame);
       if (!view) return tl::unexpected(view.error());
+      if (const auto begun = keeper_.begin(); !begun) return tl::unexpected(begun.error());
       map_ = animation::TableMap::fitting(view->table_width(), view->table_height(), project_.stage);
       tracker_ = cutout::make_pose_tracker(known_, *view);
       started_ = kept_until_ = frame.time;
@@ -126,7 +130,8 @@ class HandRecording {
     if (!seen) return tl::unexpected(seen.error());
     const double since = frame.time - started_;
     const int at = options_.from + int(std::floor(since * project_.stage.rate + 1e-6));
-    if (at >= project_.stage.length || (options_.seconds > 0 && since > options_.seconds)) return false;
+    at_end_ = at >= project_.stage.length;
+    if (at_end_ || (options_.seconds > 0 && since > options_.seconds)) return false;
     move(*seen, frame.time, at);
     status_.progress("Recording", at, project_.stage.length, "frames");
     return true;
@@ -156,7 +161,7 @@ class HandRecording {
   }
 
   const AnimateOptions& options_;
-  const KeepPart& keep_part_;
+  const RecordingKeeper& keeper_;
   Project project_;
   cutout::KnownTriangles known_;
   animation::CellPictures& pictures_;
@@ -167,6 +172,7 @@ class HandRecording {
   std::unique_ptr<cutout::Tracker> tracker_;
   double started_ = 0;     // s, time of the first frame
   double kept_until_ = 0;  // s, time of the last frame that is in a part
+  bool at_end_ = false;    // of the animation
   std::uint64_t damaged_ = 0;
   FrameComplaints complaints_;
   StatusLine status_;
@@ -175,9 +181,11 @@ class HandRecording {
 }  // namespace
 
 base::Result<RecordedHands> record_hands(const AnimateOptions& options, animation::AnimationRunner& runner,
-                                         animation::CellPictures& pictures, const KeepPart& keep_part) {
+                                         animation::CellPictures& pictures, const RecordingKeeper& keeper) {
   if (options.known.empty())
     return base::fail("--known is missing: the list of triangles that lie on the table");
+  if (const int length = runner.project().stage.length; options.from >= length)
+    return base::fail(fmt::format("--from is {}, but the last frame is {}", options.from, length - 1));
   auto known = cutout::read_known_triangles(options.known);
   if (!known) return tl::unexpected(known.error());
   std::optional<animation::LayerId> layer;
@@ -193,7 +201,7 @@ base::Result<RecordedHands> record_hands(const AnimateOptions& options, animatio
         on != nullptr && (on->locked || !on->visible))
       tell(fmt::format("triangle '{}' moves nothing: layer '{}' is {}", mapping.triangle, on->name,
                        on->locked ? "locked" : "hidden"));
-  HandRecording recording(options, std::move(*project), std::move(*known), pictures, layer, keep_part);
+  HandRecording recording(options, std::move(*project), std::move(*known), pictures, layer, keeper);
   auto recorded = recording.run();
   if (!recorded) return recorded;
   const animation::ProjectEdit edit = recording.edit();

@@ -8,12 +8,17 @@
 
 namespace icome::apps {
 
-/// Called with the parts of a recording while it goes on (Recording::next_part()), so that they can be kept.
-using KeepPart = std::function<void(const animation::ProjectEdit& part)>;
+/// Keeps a recording while it goes on.
+struct RecordingKeeper {
+  /// Called when the first frame has come; where it fails nothing is recorded.
+  std::function<base::Result<void>()> begin;
+  /// Called with what came since, about once a second of it (Recording::next_part()).
+  std::function<void(const animation::ProjectEdit& part)> keep;
+};
 
 /// Lets triangles on a table move the cells of a project, frame by frame of the source, and takes it down as
-/// one edit. Ctrl-C ends the recording, which is kept. `keep_part` is called about once a second of it.
+/// one edit. Ctrl-C ends the recording, which is kept.
 base::Result<RecordedHands> record_hands(const AnimateOptions& options, animation::AnimationRunner& runner,
-                                         animation::CellPictures& pictures, const KeepPart& keep_part);
+                                         animation::CellPictures& pictures, const RecordingKeeper& keeper);
 
 }  // namespace icome::apps

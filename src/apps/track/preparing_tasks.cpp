@@ -32,7 +32,8 @@ cutout::CalibrationSettings calibration_settings(const TrackOptions& options) {
   if (options.corners.size() == 8) {
     settings.corners.emplace();
     for (std::size_t i = 0; i < 4; ++i)
-      (*settings.corners)[i] = {options.corners[2 * i], options.corners[2 * i + 1]};
+      // People count from the picture's corner, frames from the middle of its first pixel.
+      (*settings.corners)[i] = {options.corners[2 * i] - 0.5, options.corners[2 * i + 1] - 0.5};
   }
   return settings;
 }

@@ -114,9 +114,8 @@ void add_preparing(CLI::App& track, TrackOptions& options, Preparing& preparing)
       ->type_name("VIEW.toml");
   track
       .add_option("--corners", options.corners,
-                  "With --calibrate: the table's corners in pixels, clockwise from the upper left (default: "
-                  "where red "
-                  "ends)")
+                  "With --calibrate: the table's corners in pixels from the picture's upper left corner, "
+                  "clockwise from the upper left (default: where red ends)")
       ->type_name("X,Y,X,Y,X,Y,X,Y")
       ->delimiter(',')
       ->expected(8);
