@@ -42,7 +42,7 @@ base::Result<sketch::SimulatedPen> pen_of(const SketchOptions& options) {
   sketch::SimulatedPen pen;
   pen.rate_hz = options.rate_hz;
   pen.eraser = options.eraser;
-  if (options.device.empty()) return pen;
+  if (options.device.empty() || options.device == pen.device.name) return pen;
   auto device = devices::find_device_profile(options.device);
   if (!device) return tl::unexpected(device.error());
   pen.device = *device;

@@ -25,12 +25,16 @@ struct FitReport {
 };
 
 /// The fitted strokes; nothing where it was interrupted.
-std::optional<FitReport> fit_all(const sketch::StrokesRead& read, const SketchOptions& options,
-                                 StatusLine& status) {
+base::Result<std::optional<FitReport>> fit_all(const sketch::StrokesRead& read, const SketchOptions& options,
+                                               StatusLine& status) {
   FitReport report;
   report.notes = read.notes;
   for (const sketch::PenStroke& stroke : read.strokes) {
     if (interrupted()) return std::nullopt;
+    const auto good = sketch::check_fit(stroke, options.fit.settings().error);
+    if (!good)
+      return base::fail(fmt::format("{}: stroke {}: {}", options.in.string(), report.strokes.size() + 1,
+                                    good.error().message));
     status.progress("Fitting", double(report.strokes.size()), double(read.strokes.size()), "strokes");
     report.strokes.push_back(sketch::fit_stroke(stroke, options.fit.settings()));
   }
@@ -106,7 +110,12 @@ int run_sketch_fit(const SketchOptions& options) {
   const auto read = sketch::read_strokes(options.in);
   status.clear();
   if (!read) return sketch_failed(read.error());
-  const auto report = fit_all(*read, options, status);
+  const auto fitted = fit_all(*read, options, status);
+  if (!fitted) {
+    status.clear();
+    return sketch_failed(fitted.error());
+  }
+  const std::optional<FitReport>& report = *fitted;
   if (!report) return kSketchInterrupted;
   if (!options.out.empty()) {
     const auto written = sketch::write_drawing(sketch::drawing_of(report->strokes), options.out,

@@ -28,14 +28,19 @@ namespace icome::drawing {
 //   icome:ends     "round" or "flat"
 //   icome:opacity  0 to 1
 //   icome:drawn    drawn_mark() of the path's d as it is written. Where d has another one when the file is
-//                  read, another program has changed the path, and what it draws counts after all.
+//                  read, and draws something else, another program has changed the path, and what it
+//                  draws counts after all.
+//
 // Transforms that another program has put on such a path or around it, and a viewBox that it has changed,
 // move its icome:curve, too: a writer writes none, and a viewBox in mm. Where icome:drawn is there, colours,
 // opacity, and width and ends of centre lines that differ from icome:... by more than the file's rounding
-// were changed by another program, and count as well. Other elements in the <g>, or a <path> marked
-// icome:curve and other paths after it, are independent: a reader makes a stroke of each <path>, <rect> and
-// so on. What a writer adds only for show has the attribute
-//   icome:shown    "only": not read
+// were changed by another program, and count as well.
+//
+// Other elements in the <g>, or a <path> marked icome:curve and other paths after it, are independent: a
+// reader makes a stroke of each <path>, <rect> and so on. What a writer adds only for show, the fill of the
+// stroke that follows, has the attribute
+//   icome:shown    "only": not read, unless it has an icome:drawn, too, and was changed in more than its
+//                  colour, or its stroke was taken away
 
 inline constexpr std::string_view kSvgNamespace = "http://www.w3.org/2000/svg";
 inline constexpr std::string_view kXlinkNamespace = "http://www.w3.org/1999/xlink";

@@ -132,12 +132,16 @@ base::Result<void> read_own_look(const XmlText& xml, const XmlNode& path, Stroke
   return {};
 }
 
+bool ends_meet(const Curve& curve) {
+  const Vector2& start = curve.segments.front().points[0];
+  const double gap = (curve.segments.back().points[3] - start).norm();
+  return gap <= kClosedGap * std::max(1.0, start.cwiseAbs().maxCoeff());
+}
+
 base::Result<void> close_own(Curve& curve) {
-  const Vector2 start = curve.segments.front().points[0];
-  Vector2& end = curve.segments.back().points[3];
-  if (!((end - start).norm() <= kClosedGap * std::max(1.0, start.cwiseAbs().maxCoeff())))
+  if (!ends_meet(curve))
     return base::fail("icome:closed is true, but the end of icome:curve is not its start");
-  end = start;
+  curve.segments.back().points[3] = curve.segments.front().points[0];
   curve.closed = true;
   return {};
 }
@@ -154,7 +158,9 @@ base::Result<std::optional<Stroke>> own_stroke_of(const XmlText& xml, const XmlN
   auto widths = own_widths(own_text(xml, path, kWidthsAttribute), stroke.curve.end());
   if (!widths) return tl::unexpected(widths.error());
   stroke.curve.widths = std::move(*widths);
-  if (own_flag_of(xml, path, kClosedAttribute))
+  const std::string_view said = own_text(xml, path, kClosedAttribute);
+  const bool is_lost = said != "true" && said != "false" && has_drawn_mark(xml, path);
+  if (said == "true" || (is_lost && ends_meet(stroke.curve)))
     if (const auto closed = close_own(stroke.curve); !closed) return tl::unexpected(closed.error());
   if (const auto read = read_own_look(xml, path, stroke); !read) return tl::unexpected(read.error());
   return stroke;

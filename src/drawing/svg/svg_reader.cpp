@@ -20,6 +20,7 @@
 #include "drawing/svg/svg_shapes.h"
 #include "drawing/svg/svg_sheet.h"
 #include "drawing/svg/svg_style.h"
+#include "drawing/svg/svg_writer.h"
 #include "drawing/svg/xml_text.h"
 #include "io/file_bytes.h"
 #include "io/text_scanner.h"
@@ -79,6 +80,7 @@ class SvgReader {
   Done read_shape(const XmlNode& node, const SvgContext& context);
   bool is_only_shown(const XmlNode& node) const;
   XmlNode fill_below(const XmlNode& path) const;
+  bool counts_by_itself(const XmlNode& shown);
   std::optional<Stroke> own_stroke_in(const XmlNode& path, const SvgStyle& seen);
   void repaint_own(const XmlNode& path, const SvgContext& context, Stroke& stroke);
   Done read_own(const XmlNode& node, Stroke stroke, const SvgContext& context);
@@ -322,9 +324,27 @@ XmlNode SvgReader::fill_below(const XmlNode& path) const {
   return before && is_only_shown(before) ? before : XmlNode();
 }
 
+/// What the project only shows counts after all where another program has changed more of it than its colour,
+/// or has taken away the stroke that it belongs to.
+bool SvgReader::counts_by_itself(const XmlNode& shown) {
+  if (!has_drawn_mark(xml_, shown)) return false;
+  const XmlNode above = shown.element_after();
+  if (!above || !xml_.attribute_of(above, kSketchNamespace, kCurveAttribute)) return true;
+  SvgNotes unheard(xml_);
+  const SvgStyle style = style_of(shown, SvgContext{}, unheard);
+  const double opacity = style.opacity * style.fill_opacity * (style.fill ? style.fill->alpha : 1.0);
+  constexpr double kOpaque = 0.997;  // programs store it in 8 bits
+  return was_redrawn(xml_, shown) || shown.attribute("transform") || style.line || !style.visible ||
+         !style.displayed || opacity < kOpaque;
+}
+
 void SvgReader::repaint_own(const XmlNode& path, const SvgContext& context, Stroke& stroke) {
   if (!has_drawn_mark(xml_, path)) return;
-  const XmlNode below = fill_below(path);
+  XmlNode below = fill_below(path);
+  if (below && counts_by_itself(below)) {
+    stroke.fill.reset();
+    below = XmlNode();
+  }
   SvgStyle fill;
   if (below) fill = style_of(below, context, notes_);
   for (const std::string& change : take_repaint(context.style, below ? &fill : nullptr, stroke))
@@ -362,11 +382,13 @@ bool is_dot(const SvgSubpath& subpath) {
 /// The stroke that the project wrote into a path, if that counts: tells why it does not, unless the path
 /// shows nothing any more, which is told as that of any other shape.
 std::optional<Stroke> SvgReader::own_stroke_in(const XmlNode& path, const SvgStyle& seen) {
-  if (was_redrawn(xml_, path)) {
+  auto own = own_stroke_of(xml_, path);
+  if (was_redrawn(xml_, path) && !(own && *own && is_drawn_by(**own, path.attribute("d").value()))) {
     notes_.tell(path, "a stroke of ICOME was drawn anew by another program: its outline is taken");
     return std::nullopt;
   }
-  auto own = own_stroke_of(xml_, path);
+  if (own && !*own && has_drawn_mark(xml_, path))
+    own = base::fail("icome:curve of a stroke of ICOME is missing");
   if (own && *own && has_drawn_mark(xml_, path)) {
     if (!seen.visible || has_lost_paint(**own, seen)) return std::nullopt;
     if (has_lost_widths(**own, seen, path))
@@ -378,6 +400,8 @@ std::optional<Stroke> SvgReader::own_stroke_in(const XmlNode& path, const SvgSty
 }
 
 SvgReader::Done SvgReader::read_shape(const XmlNode& node, const SvgContext& context) {
+  if (is_only_shown(node))
+    notes_.tell(node, "what another program has changed of a fill of ICOME is taken as an area of its own");
   if (auto own = own_stroke_in(node, context.style)) return read_own(node, std::move(*own), context);
   if (!context.style.visible) {
     notes_.tell(node, "a hidden element is skipped");
@@ -479,7 +503,7 @@ bool SvgReader::is_only_shown(const XmlNode& node) const {
 /// Is it nothing that is drawn? Tells what people would miss.
 bool SvgReader::is_skipped(const XmlNode& node) {
   if (!node.is_element() || !is_svg_name(node)) return true;
-  if (is_only_shown(node)) return true;
+  if (is_only_shown(node) && !counts_by_itself(node)) return true;
   const std::string_view name = local_name(node.name());
   if (std::ranges::count(kSilentElements, name) > 0) return true;
   constexpr std::array<std::string_view, 5> kContainers = {"g", "a", "svg", "use", "switch"};
@@ -567,7 +591,7 @@ void SvgReader::read_root_frame(SvgContext& context) {
     return units > 0.0 && units * kMetresOfSvgUnit <= kLargestDrawing;
   };
   Vector2 size = whole.unaryExpr(is_length).all() ? whole : paper;
-  bool has_frame = bool(svg_view_box_size(root));
+  bool has_frame = !root.attribute("viewBox") || svg_view_box_size(root);
   for (int i = 0; i < 2; ++i) {
     const XmlAttribute side = root.attribute(i == 0 ? "width" : "height");
     has_frame = has_frame && is_absolute_length(side.value());

@@ -11,6 +11,7 @@
 #include "base/utf8.h"
 #include "drawing/outline/outline.h"
 #include "drawing/svg/svg_names.h"
+#include "drawing/svg/svg_path.h"
 #include "io/number_text.h"
 
 namespace icome::drawing {
@@ -104,6 +105,25 @@ std::string outline_data(const Stroke& stroke) {
   return data;
 }
 
+std::string centre_line_data(const Stroke& stroke) {
+  return cubics_data(stroke.curve.segments, append_seen_mm) + (stroke.curve.closed ? " Z" : "");
+}
+
+/// Do two paths draw the same within what programs round?
+bool draws_the_same(std::string_view one, std::string_view other) {
+  constexpr double kRounded = 0.005;  // mm
+  const SvgShape a = parse_svg_path(one), b = parse_svg_path(other);
+  if (!a.fault.empty() || !b.fault.empty()) return false;
+  const auto same_segment = [](const CubicBezier& left, const CubicBezier& right) {
+    return std::ranges::equal(left.points, right.points, [](const Vector2& p, const Vector2& q) {
+      return (p - q).cwiseAbs().maxCoeff() <= kRounded;
+    });
+  };
+  return std::ranges::equal(a.subpaths, b.subpaths, [&](const SvgSubpath& left, const SvgSubpath& right) {
+    return left.closed == right.closed && std::ranges::equal(left.segments, right.segments, same_segment);
+  });
+}
+
 std::string css_text(const Colour& colour) {
   const auto byte = [](float channel) { return int(std::lround(255.0F * std::clamp(channel, 0.0F, 1.0F))); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(colour[0]), byte(colour[1]), byte(colour[2]));
@@ -188,10 +208,12 @@ class SvgWriter {
     if (!stroke.fill || outline.empty()) return add_filled(stroke, outline, true);
     text_ += "  <g";
     add_opacity(stroke);
+    const std::string area = cubics_data(stroke.curve.segments, append_seen_mm);
     text_ += ">\n  <path";
     own(kShownAttribute, "only");
-    attribute("d", cubics_data(stroke.curve.segments, append_seen_mm));
+    attribute("d", area);
     attribute("fill", css_text(*stroke.fill));
+    own(kDrawnAttribute, drawn_mark(area));
     text_ += "/>\n";
     add_filled(stroke, outline, false);
     text_ += "  </g>\n";
@@ -211,8 +233,7 @@ class SvgWriter {
   }
 
   void add_centre_line(const Stroke& stroke) {
-    std::string data = cubics_data(stroke.curve.segments, append_seen_mm);
-    if (stroke.curve.closed) data += " Z";
+    const std::string data = centre_line_data(stroke);
     std::string width;
     append_seen_mm(width, stroke.curve.mean_width());
     text_ += "  <path";
@@ -249,6 +270,11 @@ class SvgWriter {
 };
 
 }  // namespace
+
+bool is_drawn_by(const Stroke& stroke, std::string_view path_data) {
+  return draws_the_same(path_data, centre_line_data(stroke)) ||
+         draws_the_same(path_data, outline_data(stroke));
+}
 
 std::string svg_text(const Drawing& drawing, SvgLines lines) { return SvgWriter(lines).written(drawing); }
 

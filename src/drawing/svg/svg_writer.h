@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 
 #include "drawing/drawing.h"
 
@@ -15,5 +16,9 @@ enum class SvgLines {
 /// svg_names.h describes, so that read_svg_text() gives an equal drawing back (with other ids). Layers are
 /// layers in Inkscape, too.
 std::string svg_text(const Drawing& drawing, SvgLines lines);
+
+/// Is that what the path of a stroke draws in such a file, within what other programs round, however they
+/// write it?
+bool is_drawn_by(const Stroke& stroke, std::string_view path_data);
 
 }  // namespace icome::drawing

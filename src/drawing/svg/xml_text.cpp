@@ -34,6 +34,11 @@ XmlNode XmlNode::element_before() const {
   while (before && before.type() != pugi::node_element) before = before.previous_sibling();
   return XmlNode(before.internal_object());
 }
+XmlNode XmlNode::element_after() const {
+  pugi::xml_node after = pugi::xml_node(node_).next_sibling();
+  while (after && after.type() != pugi::node_element) after = after.next_sibling();
+  return XmlNode(after.internal_object());
+}
 XmlNode XmlNode::parent() const { return XmlNode(pugi::xml_node(node_).parent().internal_object()); }
 std::ptrdiff_t XmlNode::offset() const { return pugi::xml_node(node_).offset_debug(); }
 

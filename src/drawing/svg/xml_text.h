@@ -73,6 +73,7 @@ class XmlNode {
   XmlNode first_child() const;
   XmlNode next() const;            ///< beside it
   XmlNode element_before() const;  ///< beside it, or none
+  XmlNode element_after() const;   ///< likewise
   XmlNode parent() const;
   std::ptrdiff_t offset() const;  ///< byte of the file, -1 where it is not known
   const void* identity() const { return node_; }

@@ -14,6 +14,7 @@ using base::Vector3;
 
 constexpr double kMiddleAbove = 0.02;     // m: the middle of the workspace lies above the paper
 constexpr double kUsedReach = 0.9;        // of the workspace's circle on the paper
+constexpr double kSmallSheet = 0.03;      // m, half of the diagonal: smaller paper is enlarged to that
 constexpr double kDownFrom = 0.02;        // pressure from which a pen is down
 constexpr double kUpBelow = 0.01;         // and below which it is up again
 constexpr double kLifted = 0.005;         // m, of a simulated hand above the paper
@@ -38,7 +39,8 @@ haptics::ServoSettings servo_settings() {
 double scale_for(const devices::DeviceInfo& device, const Vector2& sheet) {
   const double square = device.workspace_radius * device.workspace_radius - kMiddleAbove * kMiddleAbove;
   const double reach = kUsedReach * std::sqrt(std::max(square, 1e-6));
-  return std::max(1.0, 0.5 * sheet.norm() / reach);
+  const double half = 0.5 * sheet.norm();
+  return half < kSmallSheet ? half / kSmallSheet : std::max(1.0, half / reach);
 }
 
 }  // namespace
@@ -160,8 +162,14 @@ void FeltPen::aim(const Vector2& place, double pressure) {
   if (simulated == nullptr) return;
   const double give = give_of(simulated->hand().stiffness, info(), paper_, 1.0 / kRate);
   const Vector2 there = in_hand(place);
+  const auto in_device = [&](double height) -> Vector3 {
+    return paper_from_device().inverse() * Vector3(there.x(), there.y(), height);
+  };
+  // A hand that swings after a jump of the mouse would draw on its way.
+  if (const bool was_pressing = std::exchange(is_pressing_, pressure > 0.0); is_pressing_ && !was_pressing)
+    simulated->put(in_device(kLifted));
   const double height = pressure > 0.0 ? -pressure * full_pressure() * give : kLifted;
-  simulated->set_target(paper_from_device().inverse() * Vector3(there.x(), there.y(), height));
+  simulated->set_target(in_device(height));
 }
 
 }  // namespace icome::sketch

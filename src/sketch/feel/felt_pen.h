@@ -24,8 +24,8 @@ struct PenReading {
 
 /// A force-feedback device as a pen on paper (thesis 4.5): a thread of its own renders the paper, and how the
 /// drawing resists what the pen does to it. The paper lies flat in the device's workspace: the device's y is
-/// up from it, its x to the right, its z down the page. Paper that is larger than the workspace is drawn on
-/// at a scale. All but step() is called by one thread, the main one.
+/// up from it, its x to the right, its z down the page. Paper that is larger than the workspace, or very
+/// small, is drawn on at a scale. All but step() is called by one thread, the main one.
 class FeltPen {
  public:
   /// A sheet of that size (m). Call start(), or step() in its place.
@@ -46,7 +46,8 @@ class FeltPen {
   /// The force (N) at full pressure: kFullPressure, or what the device's motors hold for long.
   double full_pressure() const;
   const Paper& paper() const { return paper_; }
-  /// m on the paper for each metre of the hand, 1 or more.
+  /// m on the paper for each metre of the hand: 1, unless the paper is larger than the workspace or very
+  /// small.
   double scale() const { return scale_; }
 
   /// Lays paper of another kind below the pen.
@@ -87,8 +88,9 @@ class FeltPen {
   double scale_ = 1.0;
   bool eraser_ = false;
   ToolGrip grip_;
-  bool is_down_ = false;  // as it was read last
-  double time_ = 0.0;     // s; the servo's
+  bool is_down_ = false;      // as it was read last
+  bool is_pressing_ = false;  // a simulated hand, on its way down or there
+  double time_ = 0.0;         // s; the servo's
   realtime::MessagePipe<Tick> ticks_;
   std::atomic<bool> is_lost_ = false;
   std::unique_ptr<realtime::LoopRunner> loop_;  // last: stops before the rest goes

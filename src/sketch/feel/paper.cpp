@@ -14,10 +14,10 @@ namespace {
 constexpr double kSoftLanding = 0.0002;  // m, over which the damper of the plane sets in
 
 constexpr std::array<Paper, 4> kPapers = {{
-    {"paper", 0.0, 0.35, 0.30, "grain:0.00005,0.0006", "a sheet on a desk: fine grain"},
-    {"blackboard", 0.0, 0.60, 0.50, "grain:0.00012,0.0012", "chalk on slate: rough"},
-    {"canvas", 400.0, 0.50, 0.42, "bumps:0.0002,0.0012", "stretched cloth: soft, a weave"},
-    {"glass", 0.0, 0.10, 0.07, "", "hard and slippery"},
+    {"paper", 0.0, 0.32, "grain:0.00005,0.0006", "a sheet on a desk: fine grain"},
+    {"blackboard", 0.0, 0.55, "grain:0.00012,0.0012", "chalk on slate: rough"},
+    {"canvas", 400.0, 0.46, "bumps:0.0002,0.0012", "stretched cloth: soft, a weave"},
+    {"glass", 0.0, 0.08, "", "hard and slippery"},
 }};
 
 }  // namespace
@@ -46,8 +46,7 @@ haptics::Surface surface_of(const Paper& paper, bool eraser) {
   haptics::Surface surface;
   surface.stiffness = paper.stiffness;
   surface.damping_depth = kSoftLanding;
-  surface.static_friction = more * paper.static_friction;
-  surface.dynamic_friction = more * paper.dynamic_friction;
+  surface.static_friction = surface.dynamic_friction = more * paper.friction;
   if (!paper.texture.empty()) surface.texture = haptics::make_texture(paper.texture).value();
   return surface;
 }

@@ -15,9 +15,10 @@ namespace icome::sketch {
 /// ones.
 struct Paper {
   std::string_view name = {};
-  double stiffness = 0.0;        ///< N/m; 0: the hardest that the device renders well
-  double static_friction = 0.0;  ///< Coulomb coefficient of a pen
-  double dynamic_friction = 0.0;
+  double stiffness = 0.0;  ///< N/m; 0: the hardest that the device renders well
+  /// Coulomb coefficient of a pen, at rest and sliding: with less of it sliding the force would leap where a
+  /// pen begins to move.
+  double friction = 0.0;
   std::string_view texture = {};  ///< haptic texture (docs/effects.md); empty: smooth
   std::string_view about = {};    ///< a phrase for people
 };

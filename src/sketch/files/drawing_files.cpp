@@ -39,7 +39,12 @@ base::Result<drawing::DrawingRead> read_drawing(const std::filesystem::path& fil
   auto read = read_strokes(file);
   if (!read) return tl::unexpected(read.error());
   std::vector<FittedStroke> fitted;
-  for (const PenStroke& stroke : read->strokes) fitted.push_back(fit_stroke(stroke, settings));
+  for (const PenStroke& stroke : read->strokes) {
+    if (const auto good = check_fit(stroke, settings.error); !good)
+      return base::fail(
+          fmt::format("{}: stroke {}: {}", file.string(), fitted.size() + 1, good.error().message));
+    fitted.push_back(fit_stroke(stroke, settings));
+  }
   return drawing::DrawingRead{drawing_of(fitted), std::move(read->notes)};
 }
 

@@ -1,5 +1,7 @@
 #include "sketch/fit/stroke_fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -209,6 +211,17 @@ FittedStroke fit_stroke(const PenStroke& stroke, const FitSettings& settings) {
   for (CubicBezier& segment : result.curve.segments)
     for (Vector2& point : segment.points) point = stroke.front().place + settings.error * point;
   return result;
+}
+
+base::Result<void> check_fit(const PenStroke& stroke, double error) {
+  constexpr double kLongestStroke = 1e8;  // of the error
+  constexpr double kMmOfMetre = 1e3;
+  double length = 0.0;
+  for (std::size_t i = 1; i < stroke.size(); ++i) length += (stroke[i].place - stroke[i - 1].place).norm();
+  if (length <= kLongestStroke * error) return {};
+  return base::fail(
+      fmt::format("a stroke of {:.3g} m is too long for an error of {:g} mm: allow a larger one", length,
+                  error * kMmOfMetre));
 }
 
 }  // namespace icome::sketch

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 
+#include "base/result.h"
 #include "sketch/drawn.h"
 #include "sketch/fit/pen_sample.h"
 
@@ -35,6 +36,9 @@ struct FittedStroke {
   std::size_t samples = 0;
   std::size_t corners = 0;  ///< places where the curve breaks
 };
+
+/// Fails, the end of a sentence, where a stroke is so long beside the error that a fit would take minutes.
+base::Result<void> check_fit(const PenStroke& stroke, double error);
 
 /// The curve of a stroke (thesis 4.5.2). One sample gives a dot: a segment that is a point.
 /// Preconditions: one sample or more, finite; error > 0.

@@ -79,8 +79,7 @@ class ReliefMaker {
   world::TouchProperties touch() const {
     world::TouchProperties touch;
     if (settings_.paper.stiffness > 0.0) touch.stiffness = settings_.paper.stiffness;
-    touch.static_friction = settings_.paper.static_friction;
-    touch.dynamic_friction = settings_.paper.dynamic_friction;
+    touch.static_friction = touch.dynamic_friction = settings_.paper.friction;
     touch.texture = settings_.paper.texture;
     return touch;
   }

@@ -69,6 +69,7 @@ base::Result<DrawingEdit> plan_draw(Drafting& drafting, const Arguments& argumen
   FitSettings settings;
   settings.error = length_of(arguments, "error");
   settings.tip = {length_of(arguments, "thinnest"), length_of(arguments, "widest")};
+  if (const auto good = check_fit(*samples, settings.error); !good) return tl::unexpected(good.error());
   auto stroke = std::make_shared<Stroke>();
   stroke->curve = fit_stroke(*samples, settings).curve;
   stroke->colour = arguments.colour("colour");

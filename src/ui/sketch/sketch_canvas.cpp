@@ -79,7 +79,7 @@ CanvasTool& SketchCanvas::used() const {
 }
 
 void SketchCanvas::choose(SketchToolKind tool) {
-  if (contact_ == Contact::Tool) used().give_up();
+  if (contact_ == Contact::Tool) end(last_);
   contact_ = Contact::None;
   tool_ = tool;
   show_cursor();

@@ -32,6 +32,8 @@ class SketchCanvas final : public QWidget {
   const PaperView& view() const { return view_; }
   /// Backs out of a drag, else of the selection.
   void back_out();
+  /// Is something drawn or dragged now?
+  bool is_busy() const { return contact_ == Contact::Tool; }
 
   /// Takes a pen that pushes back from now on, which outlives this; the mouse moves the hand of a simulated
   /// one. Null: none.

@@ -195,7 +195,8 @@ void SketchWindow::add_command(QMenu& menu, const char* name, const char* text, 
 }
 
 void SketchWindow::make_edit_menu(QMenu& menu) {
-  undo_ = add_action(menu, "edit.undo", "&Undo", QKeySequence::Undo, [this] { document_.undo(); });
+  undo_ = add_action(menu, "edit.undo", "&Undo", QKeySequence::Undo,
+                     [this] { canvas_->is_busy() ? canvas_->back_out() : document_.undo(); });
   undo_->setIcon(icon(Icon::Undo));
   redo_ = add_action(menu, "edit.redo", "&Redo", QKeySequence::Redo, [this] { document_.redo(); });
   redo_->setShortcuts({QKeySequence("Ctrl+Shift+Z"), QKeySequence("Ctrl+Y")});

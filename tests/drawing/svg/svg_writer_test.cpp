@@ -238,6 +238,90 @@ TEST(SvgOfOthers, ChangeThePaper) {
   EXPECT_EQ(stripped.drawing.layers.at(0).strokes.at(0)->curve.at(0.0), start);
 }
 
+TEST(SvgOfOthers, ChangeMoreOfAFillThanItsColour) {
+  const Drawing drawing = with_stroke(filled_stroke());
+  const struct {
+    const char *part, *other;
+    std::size_t strokes;
+  } changes[] = {{"fill=\"#00ff00\"", "fill=\"#00ff00\" fill-opacity=\"0.2\"", 2},
+                 {"fill=\"#00ff00\"", "fill=\"#00ff00\" transform=\"translate(1,2)\"", 2},
+                 {"fill=\"#00ff00\"", "fill=\"#00ff00\" display=\"none\"", 1},
+                 {"only\" d=\"M10,20", "only\" d=\"M10,90", 2}};
+  for (const auto& change : changes) {
+    // A straight line has no area: the fill is bent first, by which it was drawn anew as well.
+    Stroke bent = filled_stroke();
+    bent.curve.segments[0].points[1].y() = 0.05;
+    const DrawingRead read = read_changed(with_stroke(bent), SvgLines::Outlines, change.part, change.other);
+    EXPECT_EQ(read.drawing.stroke_count(), change.strokes) << change.other;
+    ASSERT_FALSE(read.drawing.layers.empty());
+    const Stroke& line = *read.drawing.layers[0].strokes.back();
+    EXPECT_EQ(line.fill, std::nullopt) << change.other;
+    EXPECT_EQ(line.curve, bent.curve);
+    EXPECT_FALSE(read.notes.empty());
+  }
+}
+
+TEST(SvgOfOthers, TakeTheLineOfAFilledStrokeAway) {
+  Stroke bent = filled_stroke();
+  bent.curve.segments[0].points[1].y() = 0.05;
+  const std::string text = svg_text(with_stroke(bent), SvgLines::Outlines);
+  const std::size_t begin = text.find("<path", text.find("<path") + 1), end = text.find("/>", begin) + 2;
+  const DrawingRead read =
+      read_changed(with_stroke(bent), SvgLines::Outlines, text.substr(begin, end - begin), "");
+  ASSERT_EQ(read.drawing.stroke_count(), 1U);
+  EXPECT_EQ(read.drawing.layers[0].strokes[0]->fill, (Colour{0.0F, 1.0F, 0.0F}));
+  EXPECT_EQ(read.notes.size(), 1U);
+}
+
+TEST(SvgOfOthers, WriteTheSamePathInAnotherWay) {
+  const Stroke stroke = plain_stroke(0.002);
+  const DrawingRead relative =
+      read_changed(with_stroke(stroke), SvgLines::CentreLines, "d=\"M10,20 C16.66667,20 23.33333,20 30,20\"",
+                   "d=\"m 10 20 c 6.667 0 13.333 0 20 0\"");
+  ASSERT_EQ(relative.drawing.stroke_count(), 1U);
+  EXPECT_TRUE(relative.notes.empty()) << relative.notes.front();
+  EXPECT_EQ(relative.drawing.layers[0].strokes[0]->curve, stroke.curve);
+  Stroke flat = stroke;
+  flat.ends = CurveEnds::Flat;
+  const DrawingRead outline =
+      read_changed(with_stroke(flat), SvgLines::Outlines, "d=\"M10,21 L30,21 L30,19 L10,19 L10,21 Z\"",
+                   "d=\"M10 21H30V19H10z\"");
+  ASSERT_EQ(outline.drawing.stroke_count(), 1U);
+  EXPECT_TRUE(outline.notes.empty()) << outline.notes.front();
+  EXPECT_EQ(outline.drawing.layers[0].strokes[0]->curve, flat.curve);
+  const DrawingRead other =
+      read_changed(with_stroke(flat), SvgLines::Outlines, "d=\"M10,21 L30,21 L30,19 L10,19 L10,21 Z\"",
+                   "d=\"M10 21H31V19H10z\"");
+  EXPECT_EQ(other.notes.size(), 1U);
+}
+
+TEST(SvgOfOthers, LoseTheCurveOrItsClosing) {
+  Stroke ring = plain_stroke(0.002);
+  ring.curve.segments[0] = {
+      {Vector2(0.01, 0.02), Vector2(0.05, 0.02), Vector2(0.01, 0.06), Vector2(0.01, 0.02)}};
+  ring.curve.closed = true;
+  for (const char* other : {"", "icome:closed=\"maybe\""}) {
+    const DrawingRead read =
+        read_changed(with_stroke(ring), SvgLines::CentreLines, "icome:closed=\"true\"", other);
+    ASSERT_EQ(read.drawing.stroke_count(), 1U);
+    EXPECT_EQ(read.drawing.layers[0].strokes[0]->curve, ring.curve);
+  }
+  const DrawingRead lost =
+      read_changed(with_stroke(ring), SvgLines::CentreLines, "icome:curve=", "icome:carve=");
+  ASSERT_EQ(lost.notes.size(), 1U);
+  EXPECT_NE(lost.notes[0].find("icome:curve of a stroke of ICOME is missing: what the path draws is taken"),
+            std::string::npos)
+      << lost.notes[0];
+}
+
+TEST(SvgOfOthers, LeaveTheViewBoxOut) {
+  const DrawingRead read =
+      read_changed(with_stroke(plain_stroke(0.002)), SvgLines::Outlines, " viewBox=\"0 0 297 210\"", "");
+  EXPECT_EQ(read.notes.size(), 1U) << "96 units are an inch then";
+  EXPECT_NEAR(read.drawing.layers.at(0).strokes.at(0)->curve.at(0.0).x(), 0.010 * 25.4 / 96.0, 1e-9);
+  EXPECT_EQ(read.drawing.size, Vector2(0.297, 0.210));
+}
+
 TEST(SvgOfOthers, EmptyWidthsLeaveWhatIsDrawn) {
   for (const SvgLines lines : {SvgLines::Outlines, SvgLines::CentreLines}) {
     const DrawingRead read = read_changed(with_stroke(plain_stroke(0.002)), lines, "icome:widths=\"0,2,1,2\"",

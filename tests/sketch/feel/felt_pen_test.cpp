@@ -73,6 +73,25 @@ TEST_F(FeltPenTest, ReachesAllOfThePaper) {
   EXPECT_EQ(pen_->scale(), 1.0);
 }
 
+TEST_F(FeltPenTest, DrawsADotWhereItIsPressedAfterAJump) {
+  go({0.02, 0.02}, 0.0, 1.0);
+  pen_->aim({0.25, 0.15}, 0.0);  // as a mouse that jumps
+  for (const PenReading& reading : go({0.25, 0.15}, 0.5, 0.5)) {
+    if (reading.pressure > 0.0) {
+      EXPECT_LT((reading.place - Vector2(0.25, 0.15)).norm(), 0.001);
+    }
+  }
+}
+
+TEST_F(FeltPenTest, EnlargesVerySmallPaper) {
+  pen_->resize({0.002, 0.002});
+  EXPECT_LT(pen_->scale(), 0.1);
+  const Vector2 from(0.0005, 0.001), to(0.0015, 0.001);
+  go(from, 0.5, 1.0);
+  const auto drawn = draw(from, to, 0.5, 1.0);
+  EXPECT_LT((drawn.back().place - to).norm(), 0.0001);
+}
+
 TEST_F(FeltPenTest, FeelsWhatItHolds) {
   const Vector2 start(0.15, 0.10), aimed(0.17, 0.10);
   go(start, 0.3, 1.0);

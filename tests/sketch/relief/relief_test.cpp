@@ -71,7 +71,7 @@ TEST(Relief, HasALayerAsAGroupAndASheetThatFeelsAsThePaper) {
   const world::PhysicalObject* sheet = object_named(*world, "sheet");
   ASSERT_NE(sheet, nullptr);
   EXPECT_EQ(world->find(sheet->material)->touch.stiffness, 400.0);
-  EXPECT_EQ(world->find(sheet->material)->touch.static_friction, 0.5);
+  EXPECT_EQ(world->find(sheet->material)->touch.static_friction, 0.46);
 }
 
 TEST(Relief, IsHigherWhereLinesAreWider) {

@@ -119,6 +119,8 @@ TEST(SketchRunner, SaysWhatIsWrong) {
   complains(R"({"op": "erase", "way": [[1, 1]], "radius": -3})", "radius");
   complains(R"({"op": "move", "by": [1, 1]})", "nothing is selected");
   complains(R"({"op": "split"})", "at");
+  complains(R"({"op": "draw", "way": [[0, 0], [200000, 0]], "error": 0.001})",
+            "too long for an error of 0.001 mm");
   complains(R"({"op": "split", "stroke": 2})", "error");  // it crashed: a stroke alone tells no place
   said(runner, R"({"op": "change-layer", "layer": "Layer 1", "locked": true})");
   complains(R"({"op": "colour", "stroke": 2, "colour": "red"})", "locked");
