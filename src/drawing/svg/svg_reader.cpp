@@ -402,7 +402,8 @@ std::optional<Stroke> SvgReader::own_stroke_in(const XmlNode& path, const SvgSty
 SvgReader::Done SvgReader::read_shape(const XmlNode& node, const SvgContext& context) {
   if (is_only_shown(node))
     notes_.tell(node, "what another program has changed of a fill of ICOME is taken as an area of its own");
-  if (auto own = own_stroke_in(node, context.style)) return read_own(node, std::move(*own), context);
+  else if (auto own = own_stroke_in(node, context.style))
+    return read_own(node, std::move(*own), context);
   if (!context.style.visible) {
     notes_.tell(node, "a hidden element is skipped");
     return {};

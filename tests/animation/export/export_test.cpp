@@ -342,8 +342,12 @@ TEST_F(Film, HasItsSoundFromWhereItBegins) {
 
 TEST_F(Film, TellsOfSoundThatIsMissingOrLeftOut) {
   project_.sound = Sound{"gone.ogg", 0, 1};
-  EXPECT_EQ(write("film.mp4").error().message, "gone.ogg: there is no such file");
-  EXPECT_TRUE(write("film.mp4", {.sound = false}));
+  const auto silent = write("film.mp4");
+  ASSERT_TRUE(silent) << silent.error().message;
+  EXPECT_EQ(silent->remarks,
+            std::vector<std::string>{"The film is silent: gone.ogg: there is no such file."});
+  EXPECT_FALSE(silent->is_whole);
+  EXPECT_TRUE(write("film.mp4", {.sound = false}).value().is_whole);
   add_sound(0);
   EXPECT_EQ(write("film.gif").value().remarks,
             std::vector<std::string>{"GIF has no sound, so it is left out."});
