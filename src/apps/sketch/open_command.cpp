@@ -1,5 +1,7 @@
 #include "apps/sketch/open_command.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
 #include "apps/help_text.h"
@@ -50,6 +52,9 @@ int run_sketch_open(const SketchOptions& options) {
   if (!options.device.empty()) {
     auto device = devices::open_device(options.device);
     if (!device) return sketch_failed(device.error());
+    if (!((*device)->info().max_force > 0.0))
+      return sketch_failed({fmt::format(
+          "{}: this device gives no force; tablets and mice draw without --device", options.device)});
     window.pen = std::make_unique<sketch::FeltPen>(std::move(*device), *paper, drawing::Drawing().size);
     if (const auto started = window.pen->start(); !started) return sketch_failed(started.error());
   }

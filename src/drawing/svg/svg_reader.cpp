@@ -329,13 +329,15 @@ XmlNode SvgReader::fill_below(const XmlNode& path) const {
 bool SvgReader::counts_by_itself(const XmlNode& shown) {
   if (!has_drawn_mark(xml_, shown)) return false;
   const XmlNode above = shown.element_after();
-  if (!above || !xml_.attribute_of(above, kSketchNamespace, kCurveAttribute)) return true;
+  const auto own = above ? own_stroke_of(xml_, above) : base::Result<std::optional<Stroke>>(std::nullopt);
+  if (!own || !*own) return true;
   SvgNotes unheard(xml_);
   const SvgStyle style = style_of(shown, SvgContext{}, unheard);
   const double opacity = style.opacity * style.fill_opacity * (style.fill ? style.fill->alpha : 1.0);
   constexpr double kOpaque = 0.997;  // programs store it in 8 bits
-  return was_redrawn(xml_, shown) || shown.attribute("transform") || style.line || !style.visible ||
-         !style.displayed || opacity < kOpaque;
+  const bool is_redrawn = was_redrawn(xml_, shown) && !is_drawn_by(**own, shown.attribute("d").value());
+  return is_redrawn || shown.attribute("transform") || style.line || !style.visible || !style.displayed ||
+         opacity < kOpaque;
 }
 
 void SvgReader::repaint_own(const XmlNode& path, const SvgContext& context, Stroke& stroke) {

@@ -273,6 +273,7 @@ class SvgWriter {
 
 bool is_drawn_by(const Stroke& stroke, std::string_view path_data) {
   return draws_the_same(path_data, centre_line_data(stroke)) ||
+         draws_the_same(path_data, cubics_data(stroke.curve.segments, append_seen_mm)) ||
          draws_the_same(path_data, outline_data(stroke));
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -52,9 +54,9 @@ class FeltPen {
 
   /// Lays paper of another kind below the pen.
   void lay(const Paper& paper);
-  /// Has the paper another size (m) from now on?
+  /// Gives the paper another size (m).
   void resize(const Vector2& sheet);
-  /// Draws the pen with its other end, which rubs harder, or again with its tip.
+  /// Lets the other end of the pen, the eraser, rub on the paper, which it does harder, or its tip again.
   void turn_around(bool eraser);
   /// Sets what the pen holds of the drawing from now on, in m on the paper; a grip that is none lets go.
   void hold(const ToolGrip& grip);

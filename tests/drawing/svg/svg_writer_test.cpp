@@ -289,6 +289,10 @@ TEST(SvgOfOthers, WriteTheSamePathInAnotherWay) {
   ASSERT_EQ(outline.drawing.stroke_count(), 1U);
   EXPECT_TRUE(outline.notes.empty()) << outline.notes.front();
   EXPECT_EQ(outline.drawing.layers[0].strokes[0]->curve, flat.curve);
+  const DrawingRead filled = read_changed(with_stroke(filled_stroke()), SvgLines::Outlines,
+                                          "d=\"M10,20 C16.66667,20 23.33333,20 30,20\"", "d=\"M10 20H30\"");
+  ASSERT_EQ(filled.drawing.stroke_count(), 1U);
+  EXPECT_EQ(filled.drawing.layers[0].strokes[0]->fill, filled_stroke().fill);
   const DrawingRead other =
       read_changed(with_stroke(flat), SvgLines::Outlines, "d=\"M10,21 L30,21 L30,19 L10,19 L10,21 Z\"",
                    "d=\"M10 21H31V19H10z\"");
