@@ -121,7 +121,7 @@ int run_sketch_edit(const SketchOptions& options) {
   });
   status.clear();
   if (outcome.stopped) return kSketchInterrupted;
-  // Where no line was right there is nothing to keep.
+  // If no line was right there is nothing to keep.
   const bool good = outcome.errors.empty() || (options.keep_going && outcome.operations > 0);
   for (const EditError& error : outcome.errors)
     tell(fmt::format("{}:{}: {}", options.apply.string(), error.line, error.message));

@@ -324,7 +324,7 @@ XmlNode SvgReader::fill_below(const XmlNode& path) const {
   return before && is_only_shown(before) ? before : XmlNode();
 }
 
-/// What the project only shows counts after all where another program has changed more of it than its colour,
+/// A fill that is only shown counts after all where another program has changed more of it than its colour,
 /// or has taken away the stroke that it belongs to.
 bool SvgReader::counts_by_itself(const XmlNode& shown) {
   if (!has_drawn_mark(xml_, shown)) return false;

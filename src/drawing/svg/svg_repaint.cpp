@@ -36,7 +36,7 @@ class Repaint {
     changes_.emplace_back("the fill");
   }
 
-  /// Of the only path of a stroke with a fill, which draws the fill, or the line where the fill was taken
+  /// Takes the only path of a stroke with a fill: it draws the fill, or the line where the fill was taken
   /// out.
   void take_fill_alone(const std::optional<CssColour>& paint) {
     if (!paint || is_same_colour(paint->colour, *stroke_.fill)) return;
@@ -52,7 +52,7 @@ class Repaint {
     changes_.emplace_back("the opacity");
   }
 
-  /// Of a centre line, which is drawn with its mean width.
+  /// Compares the mean width, with which a centre line is drawn.
   void take_width() {
     const double width = seen_.line_width * kMetresOfDrawnUnit, mean = stroke_.curve.mean_width();
     if (std::abs(width - mean) <= std::max(kSameWidth * mean, kSeenRounding)) return;

@@ -45,7 +45,7 @@ class CanvasTool {
   virtual void hover(const PenInput& /*input*/) {}
   /// Leaves the drawing as it was before the press.
   virtual void give_up() { bench_.document.give_up(); }
-  /// What the pen holds of the drawing, for how that feels; none while nothing is held.
+  /// The grip of the pen on the drawing, for how that feels; none while nothing is held.
   virtual sketch::ToolGrip grip() const { return {}; }
   /// Does it need each reading of a pen, or only where it is when the screen is drawn?
   virtual bool follows_all() const { return false; }

@@ -55,7 +55,7 @@ class CurveTool : public CanvasTool {
                                 const PenInput& now) = 0;
   /// The place on the canvas while it is dragged.
   virtual QPointF shown_at(const sketch::Pick& pick, const PenInput& now) const = 0;
-  /// Where the curve was taken; none: it is not held.
+  /// The place at which the curve was taken; none: it is not held.
   std::optional<drawing::Vector2> taken_at() const {
     return taken_ ? std::optional(from_.place) : std::nullopt;
   }

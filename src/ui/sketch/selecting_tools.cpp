@@ -95,7 +95,7 @@ void SelectingTool::give_up() {
   redraw_all();
 }
 
-/// What holds back what is dragged (thesis 4.15 and its analogues), and what attracts it.
+/// The grip that holds back what is dragged (thesis 4.15 and its analogues), and what attracts it.
 sketch::ToolGrip SelectingTool::grip() const {
   using Part = SelectionFrame::Part;
   sketch::ToolGrip held;

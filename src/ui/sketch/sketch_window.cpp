@@ -334,7 +334,7 @@ void SketchWindow::take_pen(std::unique_ptr<sketch::FeltPen> pen) {
   pen_news_.start(kPenNews);
 }
 
-/// What a person should know about the pen's device, above the paper while it holds.
+/// Tells above the paper what a person should know about the pen's device, as long as it holds.
 void SketchWindow::tell_of_pen() {
   const std::string condition = felt_pen_->condition();
   if (condition == pen_told_) return;

@@ -133,7 +133,7 @@ TEST(SvgText, LayersAreLayersInInkscapeToo) {
   EXPECT_NE(text.find("display=\"none\""), std::string::npos) << text;
 }
 
-// What another program may do to a file of the project.
+// Changes that another program may make to a file of the project.
 
 /// The text of a drawing with one part in the place of another, read again.
 DrawingRead read_changed(const Drawing& drawing, SvgLines lines, const std::string& part,
@@ -274,29 +274,24 @@ TEST(SvgOfOthers, TakeTheLineOfAFilledStrokeAway) {
 }
 
 TEST(SvgOfOthers, WriteTheSamePathInAnotherWay) {
-  const Stroke stroke = plain_stroke(0.002);
-  const DrawingRead relative =
-      read_changed(with_stroke(stroke), SvgLines::CentreLines, "d=\"M10,20 C16.66667,20 23.33333,20 30,20\"",
-                   "d=\"m 10 20 c 6.667 0 13.333 0 20 0\"");
-  ASSERT_EQ(relative.drawing.stroke_count(), 1U);
-  EXPECT_TRUE(relative.notes.empty()) << relative.notes.front();
-  EXPECT_EQ(relative.drawing.layers[0].strokes[0]->curve, stroke.curve);
-  Stroke flat = stroke;
+  const auto expect_unchanged = [](const Stroke& stroke, SvgLines lines, const char* path,
+                                   const char* other) {
+    const DrawingRead read = read_changed(with_stroke(stroke), lines, path, other);
+    ASSERT_EQ(read.drawing.stroke_count(), 1U);
+    EXPECT_TRUE(read.notes.empty()) << read.notes.front();
+    EXPECT_EQ(read.drawing.layers[0].strokes[0]->curve, stroke.curve);
+    EXPECT_EQ(read.drawing.layers[0].strokes[0]->fill, stroke.fill);
+  };
+  const char* const line = "d=\"M10,20 C16.66667,20 23.33333,20 30,20\"";
+  const char* const outline = "d=\"M10,21 L30,21 L30,19 L10,19 L10,21 Z\"";
+  Stroke flat = plain_stroke(0.002);
   flat.ends = CurveEnds::Flat;
-  const DrawingRead outline =
-      read_changed(with_stroke(flat), SvgLines::Outlines, "d=\"M10,21 L30,21 L30,19 L10,19 L10,21 Z\"",
-                   "d=\"M10 21H30V19H10z\"");
-  ASSERT_EQ(outline.drawing.stroke_count(), 1U);
-  EXPECT_TRUE(outline.notes.empty()) << outline.notes.front();
-  EXPECT_EQ(outline.drawing.layers[0].strokes[0]->curve, flat.curve);
-  const DrawingRead filled = read_changed(with_stroke(filled_stroke()), SvgLines::Outlines,
-                                          "d=\"M10,20 C16.66667,20 23.33333,20 30,20\"", "d=\"M10 20H30\"");
-  ASSERT_EQ(filled.drawing.stroke_count(), 1U);
-  EXPECT_EQ(filled.drawing.layers[0].strokes[0]->fill, filled_stroke().fill);
-  const DrawingRead other =
-      read_changed(with_stroke(flat), SvgLines::Outlines, "d=\"M10,21 L30,21 L30,19 L10,19 L10,21 Z\"",
-                   "d=\"M10 21H31V19H10z\"");
-  EXPECT_EQ(other.notes.size(), 1U);
+  expect_unchanged(flat, SvgLines::CentreLines, line, "d=\"m 10 20 c 6.667 0 13.333 0 20 0\"");
+  expect_unchanged(flat, SvgLines::Outlines, outline, "d=\"M10 21H30V19H10z\"");
+  expect_unchanged(filled_stroke(), SvgLines::Outlines, line, "d=\"M10 20H30\"");
+  const DrawingRead longer =
+      read_changed(with_stroke(flat), SvgLines::Outlines, outline, "d=\"M10 21H31V19H10z\"");
+  EXPECT_EQ(longer.notes.size(), 1U);
 }
 
 TEST(SvgOfOthers, LoseTheCurveOrItsClosing) {

@@ -73,7 +73,7 @@ TEST(ToolEffect, GivesNoEnergyWhereverAHandGoes) {
   }
 }
 
-// The same, where nothing dampens and a hand goes to and fro between a small and a large arm: it takes more
+// Nothing dampens here, and a hand goes to and fro between a small and a large arm: it takes more
 // where it goes back than it gave. What it had not given is never paid out.
 TEST(ToolEffect, PaysOutNoMoreThanATurnHasTaken) {
   const ToolGrip grip = {.start = {0.05, 0.0}, .turned = 0.2};
