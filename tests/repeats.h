@@ -4,7 +4,7 @@
 
 namespace icome {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(ICOME_ADDRESS_SANITIZER) || defined(ICOME_THREAD_SANITIZER)
 inline constexpr int kSanitizerShare = 20;  // sanitizers slow the code by about this much
 #else
 inline constexpr int kSanitizerShare = 1;

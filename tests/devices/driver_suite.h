@@ -85,7 +85,7 @@ class Touching {
   static constexpr double kFloor = -0.01;      // m, y
   static constexpr double kStiffness = 400.0;  // N/m
 
-  explicit Touching(Rig& rig) : rig_(rig), servo_(*rig.device, settings()) { servo_.publish(floor()); }
+  explicit Touching(Rig& rig) : servo_(*rig.device, settings()) { servo_.publish(floor()); }
 
   /// Ticks until a condition holds, once a millisecond where the machine keeps up; false when it never does.
   bool until(const std::function<bool(const haptics::TickReport&)>& condition) {
@@ -137,7 +137,6 @@ class Touching {
   }
 
   Undelayed undelayed_;
-  Rig& rig_;
   haptics::Servo servo_;
   std::int64_t last_ = 0;     // ns, of the last tick; 0 before the first
   std::int64_t longest_ = 0;  // ns

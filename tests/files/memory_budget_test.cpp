@@ -29,7 +29,7 @@ TEST(MemoryBudget, IsTwentyTimesTheFilesAnd256MegabytesUnlessSomebodySays) {
   EXPECT_EQ(io::MemoryBudget(7).allowed(), 7u);
 }
 
-#ifndef __SANITIZE_ADDRESS__
+#ifndef ICOME_ADDRESS_SANITIZER
 // Designs made to exhaust the machine. What is taken is told by the system, of the program and of its
 // children.
 

@@ -13,7 +13,7 @@
 namespace icome::geometry {
 
 // Sanitizers make long chains ten times as slow, and recursion overflows their stack ten times as soon.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(ICOME_ADDRESS_SANITIZER) || defined(ICOME_THREAD_SANITIZER)
 inline constexpr std::size_t kLongShare = 10;
 #else
 inline constexpr std::size_t kLongShare = 1;

@@ -330,7 +330,8 @@ TEST(Navigation, AFlightKeepsWhatItGoesToInSight) {
     for (double t = 0.0; t < 1.0; t += 0.02) {
       const View view = flight.at(t);
       ASSERT_GT(depth_of(view, target), 0.0);
-      ASSERT_LT(seen_at(view, target, 1.0).cwiseAbs().maxCoeff(), 1.0) << i << " " << t;
+      // What was at the picture's rim may go a little beyond it.
+      ASSERT_LT(seen_at(view, target, 1.0).cwiseAbs().maxCoeff(), 1.02) << i << " " << t;
     }
   }
 }

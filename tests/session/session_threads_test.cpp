@@ -15,7 +15,7 @@ namespace {
 using base::Vector3;
 using world::at;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(ICOME_ADDRESS_SANITIZER) || defined(ICOME_THREAD_SANITIZER)
 constexpr int kFrequency = 71;  // 100,820 triangles: work takes ten times as long
 #else
 constexpr int kFrequency = 230;  // 1,058,000 triangles

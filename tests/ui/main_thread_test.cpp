@@ -12,7 +12,7 @@
 #include "places.h"
 #include "ui/window_test.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(ICOME_ADDRESS_SANITIZER) || defined(ICOME_THREAD_SANITIZER)
 #define ICOME_TIMES_MEAN_NOTHING 1
 #endif
 

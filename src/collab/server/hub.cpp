@@ -430,7 +430,7 @@ void Hub::save_snapshot_if_due(const OpenDesignPointer& design) {
   const std::uint64_t wait_for = appends_ + (design->room->has_entries() ? 1 : 0);
   // The edits behind the snapshot before stay, for clients that come back.
   const std::uint64_t keep_after = design->snapshot_sequence;
-  work_.push_back({[this, design, sequence, keep_after, world = design->room->world()](OpLog& log) {
+  work_.push_back({[design, sequence, keep_after, world = design->room->world()](OpLog& log) {
                      const auto bytes = world_to_bytes(world);
                      const bool saved = bytes && log.save_snapshot(design->name, design->fence,
                                                                    {sequence, *bytes}, keep_after);

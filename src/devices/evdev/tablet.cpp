@@ -137,7 +137,7 @@ Quaternion Tablet::orientation() const {
 }
 
 std::uint32_t Tablet::buttons() const {
-  const auto bit = [this](bool down, unsigned number) { return down ? 1U << number : 0U; };
+  const auto bit = [](bool down, unsigned number) { return down ? 1U << number : 0U; };
   return bit(touches(), 0) | bit(state_.keys[BTN_STYLUS], 1) | bit(state_.keys[BTN_STYLUS2], 2) |
          bit(state_.keys[BTN_TOOL_RUBBER], 3);
 }

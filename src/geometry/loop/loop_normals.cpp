@@ -21,7 +21,7 @@ struct Sector {
 class VertexFan {
  public:
   VertexFan(const LoopLevel& level, const LoopSharpness& sharp, std::uint32_t vertex)
-      : level_(level), sharp_(sharp), vertex_(vertex) {
+      : sharp_(sharp), vertex_(vertex) {
     for (const std::uint32_t face : level.faces_around(vertex)) {
       const TriangleMesh::Triangle& t = level.mesh.triangles[face];
       const int at = t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
@@ -95,7 +95,6 @@ class VertexFan {
     return sector;
   }
 
-  const LoopLevel& level_;
   const LoopSharpness& sharp_;
   std::uint32_t vertex_;
   std::vector<Spoke> spokes_;

@@ -1,5 +1,6 @@
 #include "geometry/tree/hilbert.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -63,6 +64,11 @@ void sort_by_key(std::vector<Keyed>& items) {
   }
 }
 
+/// The cell that a coordinate lies in; 0 for what is no number.
+std::uint32_t cell(float coordinate) {
+  return coordinate > 0.0f ? std::uint32_t(std::min(coordinate, float((1 << kBits) - 1))) : 0u;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> hilbert_order(const std::vector<Eigen::Vector3f>& points) {
@@ -74,9 +80,8 @@ std::vector<std::uint32_t> hilbert_order(const std::vector<Eigen::Vector3f>& poi
   std::vector<Keyed> items(points.size());
   base::parallel_for(points.size(), kKeyGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Vector3f cell = (points[i] - box.min()) * scale;
-      items[i] = {hilbert_key({std::uint32_t(cell.x()), std::uint32_t(cell.y()), std::uint32_t(cell.z())}),
-                  std::uint32_t(i)};
+      const Eigen::Vector3f scaled = (points[i] - box.min()) * scale;
+      items[i] = {hilbert_key({cell(scaled.x()), cell(scaled.y()), cell(scaled.z())}), std::uint32_t(i)};
     }
   });
   sort_by_key(items);

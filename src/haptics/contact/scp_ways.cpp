@@ -193,7 +193,7 @@ bool ScpSolver::escape_in_the_open(const Vector3& tip) {
   const double length = std::min(kOpenWay * region_.smallest(), 0.25 * pull.norm());
   const Vector3 onward = pull.stableNormalized(), side = onward.unitOrthogonal(), other = onward.cross(side);
   const auto may_look = [&] { return !spent() && !region_.overflowed(); };
-  for (const double cosine : {0.5, 0.77, 0.27, 0.94, 0.12}) {
+  for (const double cosine : {0.5, 0.77, 0.27, 0.94, 0.12, 0.04}) {
     const double sine = std::sqrt(1.0 - cosine * cosine);
     for (int i = 0; i < kOpenSides && may_look() && length > tolerance().touching(); ++i) {
       const double turn = 2.0 * std::numbers::pi * i / kOpenSides;
@@ -202,7 +202,7 @@ bool ScpSolver::escape_in_the_open(const Vector3& tip) {
       if (any_swallows(held, from + way)) continue;  // one evaluation tells that
       contacts_.clear();
       advance(way);
-      if ((tip - position_).norm() < pull.norm() - 0.05 * length) return true;
+      if ((tip - position_).norm() < pull.norm() - std::min(0.05, 0.5 * cosine) * length) return true;
       position_ = from;
     }
   }

@@ -3,12 +3,8 @@
 #include <cassert>
 
 // The sanitizers replace the same functions; two replacements in one program do not get along.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(ICOME_ADDRESS_SANITIZER) || defined(ICOME_THREAD_SANITIZER)
 #define ICOME_GUARD_AVAILABLE 0
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define ICOME_GUARD_AVAILABLE 0
-#endif
 #endif
 #ifndef ICOME_GUARD_AVAILABLE
 #define ICOME_GUARD_AVAILABLE 1

@@ -39,7 +39,7 @@ std::string why_no_number(const Item& item, const std::string& answer) {
 
 std::string why_no_rating(const Item& item, const std::string& answer) {
   const auto number = base::parse_finite(answer);
-  const bool fits = number && *number == double(int(*number)) && *number >= 1.0 && *number <= item.points;
+  const bool fits = number && *number == std::floor(*number) && *number >= 1.0 && *number <= item.points;
   return fits ? std::string() : fmt::format("choose from 1 to {}", item.points);
 }
 

@@ -294,7 +294,7 @@ std::string SimulatedWork::check_floor() const {
 std::string SimulatedWork::run() {
   for (const std::int64_t end = now_ + weather_.rough; now_ < end && fault_.empty();) step(true);
   weather_ = {.clients = weather_.clients, .twice = 0.0};
-  const auto at_rest = [this](const Client& client) {
+  const auto at_rest = [](const Client& client) {
     return client.talk->state() == ConversationState::Live && client.talk->replica().unacknowledged() == 0 &&
            client.up.flying.empty() && client.down.flying.empty();
   };

@@ -41,10 +41,10 @@ constexpr unsigned kSchedulerError = 0x0306;
 constexpr unsigned kStrangeError = 0x0999;
 constexpr unsigned kNoDevice = 0xFFFFFFFF;
 
-struct ErrorInfo {
-  unsigned code = 0;
-  int internal_code = 0;
-  unsigned device = kNoDevice;
+struct ErrorInfo {  // as C has it: returned by value
+  unsigned code;
+  int internal_code;
+  unsigned device;
 };
 
 /// Errors that nobody has taken yet. Where there are too many, the newest are lost.
@@ -54,12 +54,12 @@ class ErrorStack {
     if (count_ < errors_.size()) errors_[count_++] = {code, 0, device};
   }
   ErrorInfo take() {
-    if (count_ == 0) return {};
+    if (count_ == 0) return {0, 0, kNoDevice};
     return errors_[--count_];
   }
 
  private:
-  std::array<ErrorInfo, 8> errors_;
+  std::array<ErrorInfo, 8> errors_{};
   std::size_t count_ = 0;
 };
 FakeHd& hd_from_environment() {

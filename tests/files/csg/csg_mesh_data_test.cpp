@@ -19,7 +19,7 @@ namespace icome::files {
 namespace {
 
 // Sanitizers take a minute for a file of 41 primitives.
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef ICOME_ADDRESS_SANITIZER
 constexpr std::size_t kMostPrimitives = 40;
 #else
 constexpr std::size_t kMostPrimitives = 150;

@@ -16,7 +16,7 @@ using world::MaterialId;
 using world::ObjectId;
 using world::World;
 
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef ICOME_ADDRESS_SANITIZER
 constexpr std::size_t kStride = 11;  // of the places that are tried, bytes
 #else
 constexpr std::size_t kStride = 1;

@@ -7,7 +7,7 @@
 namespace icome::files {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef ICOME_ADDRESS_SANITIZER
 constexpr int kDamagedJournals = 500;
 #else
 constexpr int kDamagedJournals = 3000;

@@ -16,7 +16,7 @@ namespace {
 using world::Edit;
 using world::ObjectId;
 
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef ICOME_ADDRESS_SANITIZER
 constexpr int kKills = 60;
 #else
 constexpr int kKills = 1000;

@@ -5,7 +5,7 @@
 namespace icome::files {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef ICOME_ADDRESS_SANITIZER
 constexpr std::uint64_t kSequences = 300;
 #else
 constexpr std::uint64_t kSequences = 10000;

@@ -64,7 +64,7 @@ struct JudgedMesh {
   bool closed;
   TouchableSides sides;
 
-  friend std::ostream& operator<<(std::ostream& out, const JudgedMesh& mesh) { return out << mesh.name; }
+  friend std::ostream& operator<<(std::ostream& out, const JudgedMesh& judged) { return out << judged.name; }
 };
 
 TriangleMesh sliver_sheet() {

@@ -9,7 +9,7 @@
 namespace icome::interaction {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(ICOME_ADDRESS_SANITIZER) || defined(ICOME_THREAD_SANITIZER)
 constexpr int kCommands = 300;
 #else
 constexpr int kCommands = 10'000;

@@ -29,7 +29,7 @@ using haptics::HapticScene;
 using interaction::Ray;
 using ShapePointer = std::shared_ptr<const haptics::Shape>;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(ICOME_ADDRESS_SANITIZER) || defined(ICOME_THREAD_SANITIZER)
 constexpr int kFewer = 20;  // sanitizers slow the code by about this much
 #else
 constexpr int kFewer = 1;

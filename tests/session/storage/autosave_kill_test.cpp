@@ -8,7 +8,7 @@
 namespace icome::session {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(ICOME_ADDRESS_SANITIZER) || defined(ICOME_THREAD_SANITIZER)
 constexpr int kKills = 25;
 #else
 constexpr int kKills = 100;

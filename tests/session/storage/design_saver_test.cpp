@@ -104,7 +104,7 @@ TEST(DesignSaver, TellsWhatToDoWhereItCannotWrite) {
 }
 
 TEST(DesignSaver, AFullDiskLeavesTheOldFile) {
-#if defined(__SANITIZE_THREAD__)
+#if defined(ICOME_THREAD_SANITIZER)
   GTEST_SKIP() << "the thread sanitizer cannot follow threads that begin after a fork";
 #endif
   const ScratchFolder folder;

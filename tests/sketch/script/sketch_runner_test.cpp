@@ -11,7 +11,7 @@ using interaction::Parameter;
 using interaction::ParameterKind;
 using interaction::Value;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(ICOME_ADDRESS_SANITIZER) || defined(ICOME_THREAD_SANITIZER)
 constexpr int kRandomEdits = 600;
 #else
 constexpr int kRandomEdits = 10'000;

@@ -121,7 +121,7 @@ TEST(Ear, TellsWhyItHearsNothing) {
 
 TEST(Microphone, ThatIsNotThereIsTold) {
   EXPECT_FALSE(open_recording("/no/such/recording.wav"));
-#ifdef __SANITIZE_ADDRESS__
+#ifdef ICOME_ADDRESS_SANITIZER
   GTEST_SKIP() << "libraries of sound systems keep memory when they are unloaded, which looks like ours";
 #endif
   const auto microphone = open_microphone("a microphone that nobody has");

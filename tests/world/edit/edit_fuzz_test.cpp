@@ -9,7 +9,7 @@
 namespace icome::world {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef ICOME_ADDRESS_SANITIZER
 constexpr int kRounds = 3'000;
 #else
 constexpr int kRounds = 30'000;

@@ -7,7 +7,7 @@
 namespace icome::world {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef ICOME_ADDRESS_SANITIZER
 constexpr int kSequences = 500;
 constexpr int kLongSequences = 1;
 #else

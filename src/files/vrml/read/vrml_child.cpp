@@ -27,7 +27,7 @@ constexpr const char* kWorkerVariable = "ICOME_VRML_WORKER";
 /// Large, so that megabytes need few turns.
 constexpr int kSocketBuffer = 1 << 20;
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef ICOME_ADDRESS_SANITIZER
 constexpr bool kShowsErrors = true;  // the sanitizer writes its findings
 #else
 constexpr bool kShowsErrors = false;

@@ -58,7 +58,7 @@ void limit(__rlimit_resource resource, rlim_t most) {
 
 [[noreturn]] void out_of_memory() { ::_exit(kVrmlOutOfMemory); }
 
-#ifndef __SANITIZE_ADDRESS__
+#ifndef ICOME_ADDRESS_SANITIZER
 void on_fault(int number, siginfo_t* info, void*) {
   const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
   if (number == SIGSEGV && address >= stack_end - kStackMargin && address < stack_end + kStackMargin)
@@ -157,7 +157,7 @@ void confine(const VrmlLimits& limits) {
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   std::set_new_handler(out_of_memory);
   limit(RLIMIT_STACK, kStackBytes);
-#ifndef __SANITIZE_ADDRESS__
+#ifndef ICOME_ADDRESS_SANITIZER
   // The address sanitizer takes terabytes of addresses, and reports faults itself.
   limit_memory(limits.memory);
   stack_end = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0)) - kStackBytes;

@@ -32,7 +32,7 @@ int attempt(const std::function<bool()>& could) {
   return status;
 }
 
-#if defined(__SANITIZE_THREAD__)
+#if defined(ICOME_THREAD_SANITIZER)
 TEST(VrmlConfinement, DISABLED_ForksWithThreads) {}
 #else
 
@@ -86,7 +86,7 @@ TEST(VrmlConfinement, RaisesNoLimitAndMakesNoCode) {
                      MAP_FAILED;
             }),
             0);
-#ifndef __SANITIZE_ADDRESS__
+#ifndef ICOME_ADDRESS_SANITIZER
   EXPECT_EQ(attempt([] {
               return ::mmap(nullptr, 65U << 20U, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) != MAP_FAILED;
             }),
@@ -102,7 +102,7 @@ TEST(VrmlConfinement, LeavesWhatParsingNeeds) {
               return ::getrlimit(RLIMIT_AS, &limit) == 0 && ::write(STDOUT_FILENO, "", 0) == 0;
             })),
             1);
-#ifndef __SANITIZE_ADDRESS__
+#ifndef ICOME_ADDRESS_SANITIZER
   // The address sanitizer has a handler of its own for faults.
   const int crashed = attempt([] {
     ::raise(SIGFPE);

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef ICOME_ADDRESS_SANITIZER
 constexpr int kSlowness = 8;
 #else
 constexpr int kSlowness = 1;

@@ -162,7 +162,7 @@ TEST(VrmlProcess, KeepsToItsLimits) {
   for (int i = 1; i < 20'000; ++i)
     slow += fmt::format("PROTO P{} [] {{ Group {{ children P{} {{}} }} }}\n", i, i - 1);
   expect_found(ask_about(slow, {.seconds_limit = 0.3}).failure, "took longer than 0.3 s");
-#ifndef __SANITIZE_ADDRESS__
+#ifndef ICOME_ADDRESS_SANITIZER
   // Many small things, which Coin does not ask for by new.
   std::string copies = "PROTO P0 [] { Group { children [ Group {} Group {} ] } }\n";
   for (int i = 1; i < 40; ++i)
