@@ -169,7 +169,7 @@ TEST_P(FormulaTips, AreLiftedByGroundThatRisesUnderThem) {
 }
 
 TEST(ScpOfFormulaTips, RestsOnTheFlanksOfAHollowThatIsNarrower) {
-  expect_centre_at_distance("z - 0.003*sin(300*x)", 5e-3, 10, 170, 1e-8, [](const Vector3& p, double) {
+  expect_centre_at_distance("z - 0.003*sin(300*x)", 5e-3, 10, 170, 2e-8, [](const Vector3& p, double) {
     return distance_to_ground([](double x, double) { return 0.003 * std::sin(300.0 * x); }, p, 0.012);
   });
 }

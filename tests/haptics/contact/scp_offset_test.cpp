@@ -44,6 +44,8 @@ std::vector<Vector3> wandering(std::uint64_t seed, std::size_t ticks, double rea
   return path;
 }
 
+constexpr int kMostOnTheWay = 5;  // ticks until an SCP that could not go all its way in one has caught up
+
 /// Holds the centre at the distance of the radius, or free, where the distance to the solid is known in
 /// closed form; how many ticks were in touch.
 template <typename Distance>
@@ -51,11 +53,13 @@ std::size_t expect_at_distance(const CsgTree& tree, double radius, std::uint64_t
                                Distance&& distance) {
   SphereToucher toucher(tree, radius);
   std::size_t touching = 0;
+  int on_the_way = 0;
   for (const Vector3& tip : wandering(seed, std::size_t(std::max(1500, repeats(3000))), reach)) {
     const ScpState& state = toucher.step(tip);
     const double apart = distance(state.scp) - radius;
     EXPECT_GT(apart, -1e-9) << tip.transpose();
-    EXPECT_TRUE(state.converged);
+    on_the_way = state.converged ? 0 : on_the_way + 1;
+    EXPECT_LE(on_the_way, kMostOnTheWay) << tip.transpose();
     EXPECT_TRUE(state.touching ? apart < 1e-8 : state.scp == tip) << apart << " " << tip.transpose();
     touching += state.touching;
     if (testing::Test::HasFailure()) break;
