@@ -52,7 +52,7 @@ Value value_for(const Parameter& parameter, const std::string& object) {
     case ParameterKind::Counts:
       return Value::List{number, number};
     case ParameterKind::Points:
-      return Value::List{Value::List(parameter.components, number)};
+      return Value::List{Value(Value::List(parameter.components, number))};
     case ParameterKind::Object:
       return object;
     case ParameterKind::Objects:

@@ -123,10 +123,12 @@ TEST(CollisionShapes, WithoutTrianglesCountAsTheirBoxOrAsNothing) {
 
 // ---- Against brute force: other questions, of all triangles and points --------------------------------
 
+/// Six times the volume of a tetrahedron, positive where `d` is above the triangle of the others.
+double volume(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+  return (b - a).cross(c - a).dot(d - a);
+}
+
 bool crosses(const Vector3& from, const Vector3& to, const Corners& corners) {
-  const auto volume = [](const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
-    return (b - a).cross(c - a).dot(d - a);
-  };
   if ((volume(corners[0], corners[1], corners[2], from) > 0.0) ==
       (volume(corners[0], corners[1], corners[2], to) > 0.0))
     return false;
@@ -136,20 +138,25 @@ bool crosses(const Vector3& from, const Vector3& to, const Corners& corners) {
   return s0 == s1 && s1 == s2;
 }
 
-/// A placed shape as triangles, and what is in it.
+/// A placed convex shape as triangles, and what is in them.
 struct Placed {
   std::vector<Corners> triangles;
   std::function<bool(const Vector3&)> inside;
 };
 
-Placed placed(const Geometry& shape, const Primitive& primitive, const Affine3& frame) {
+Placed placed(const Geometry& shape, const Affine3& frame) {
   Placed result;
   const auto mesh = *shape.triangles(1e-3 * shape.bounds().sizes().maxCoeff());
   for (std::size_t t = 0; t < mesh->mesh.triangles.size(); ++t)
     result.triangles.push_back(
         {frame * mesh->mesh.corner(t, 0), frame * mesh->mesh.corner(t, 1), frame * mesh->mesh.corner(t, 2)});
-  result.inside = [primitive, back = Affine3(frame.inverse())](const Vector3& point) {
-    return geometry::inside(primitive, back * point);
+  result.inside = [mesh, back = Affine3(frame.inverse())](const Vector3& point) {
+    const Vector3 local = back * point;
+    for (std::size_t t = 0; t < mesh->mesh.triangles.size(); ++t) {
+      const auto corner = [&](int i) { return mesh->mesh.corner(t, i); };
+      if (volume(corner(0), corner(1), corner(2), local) > -1e-12) return false;
+    }
+    return true;
   };
   return result;
 }
@@ -195,17 +202,17 @@ struct RandomWorld {
                                          turned(random.uniform(0.0, 3.0), random.direction())
                                    : random_frame(random, reach);
       ids_so_far.push_back(add_object(world, ids, "", shape, parent, frame));
-      if (shape) primitives.emplace(ids_so_far.back(), kind);
+      if (shape) solids.push_back(ids_so_far.back());
     }
   }
 
   Placed placed_as(ObjectId id, const Affine3& frame) const {
-    return placed(*world.find(world.find(id)->geometry)->shape, primitives.at(id), frame);
+    return placed(*world.find(world.find(id)->geometry)->shape, frame);
   }
 
   World world;
   IdSource ids;
-  std::map<ObjectId, Primitive> primitives;
+  std::vector<ObjectId> solids;
 };
 
 using Pairs = std::set<std::pair<ObjectId, ObjectId>>;
@@ -225,7 +232,7 @@ TEST(Collisions, OfAllObjectsAreThoseOfBruteForce) {
     const RandomWorld random(seed, 40, 2.0);
     CollisionIndex index(random.world);
     std::map<ObjectId, Placed> shapes;
-    for (const auto& [id, primitive] : random.primitives)
+    for (const ObjectId id : random.solids)
       shapes.emplace(id, random.placed_as(id, world_from_object(random.world, id)));
     Pairs expected;
     for (const auto& [one, a] : shapes) {
@@ -246,17 +253,16 @@ TEST(Collisions, OfASubtreeElsewhereAreThoseOfBruteForce) {
     CollisionIndex index(random.world);
     base::Random choice(seed);
     for (int k = 0; k < 3; ++k) {
-      const ObjectId root =
-          std::next(random.primitives.begin(), choice.index(random.primitives.size()))->first;
+      const ObjectId root = random.solids[choice.index(random.solids.size())];
       const Affine3 was = world_from_object(random.world, root);
       const Affine3 place =
           Affine3(Eigen::Translation3d(0.5 * choice.direction())) * was * turned(0.5, choice.direction());
       Pairs expected;
-      for (const auto& [one, a] : random.primitives) {
+      for (const ObjectId one : random.solids) {
         if (!is_within(random.world, one, root)) continue;
         const Placed moved =
             random.placed_as(one, place * was.inverse() * world_from_object(random.world, one));
-        for (const auto& [other, b] : random.primitives) {
+        for (const ObjectId other : random.solids) {
           if (is_within(random.world, other, root)) continue;
           if (brute_force(moved, random.placed_as(other, world_from_object(random.world, other))))
             expected.emplace(one, other);
