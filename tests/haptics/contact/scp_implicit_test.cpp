@@ -317,6 +317,18 @@ void compare_with_known(const Field& field, Known&& known) {
   EXPECT_GT(compared, 500);
 }
 
+// The side of the pit rises towards the tip, but leads nearer to it by 6 parts in 100 of the way only.
+TEST(ScpOnImplicit, LeavesThePitOfAConeAlongItsSide) {
+  Toucher toucher(HapticScene::compile({object(1, formula_shape(pit_field().formula))}));
+  for (int tick = 0; tick < 20; ++tick) toucher.step(Vector3(1e-3, 2e-3, 0.01 - 1e-3 * tick));
+  const Vector3 beside(0.0148, -0.0421, -0.0396);
+  for (int tick = 0; tick < 5; ++tick) toucher.step(beside);
+  const double out = std::hypot(beside.x(), beside.y());
+  const double up = 0.5 * (out + beside.z());  // where the side, at 45 degrees, is nearest
+  const Vector3 place(up * beside.x() / out, up * beside.y() / out, up);
+  EXPECT_LT((toucher.step(beside).scp - place).norm(), 1e-6);
+}
+
 TEST(ScpOnImplicit, IsTheNearestPlaceOfABallAndARing) {
   compare_with_known(ball_field(), [](const Vector3& tip) { return Vector3(0.05 * tip.normalized()); });
   compare_with_known(ring_field(), [](const Vector3& tip) {

@@ -44,13 +44,12 @@ std::vector<Vector3> wandering(std::uint64_t seed, std::size_t ticks, double rea
   return path;
 }
 
-constexpr int kMostOnTheWay = 5;  // ticks until an SCP that could not go all its way in one has caught up
-
 /// Holds the centre at the distance of the radius, or free, where the distance to the solid is known in
-/// closed form; how many ticks were in touch.
+/// closed form; how many ticks were in touch. `most_on_the_way`: ticks until an SCP that could not go all its
+/// way in one has caught up.
 template <typename Distance>
 std::size_t expect_at_distance(const CsgTree& tree, double radius, std::uint64_t seed, double reach,
-                               Distance&& distance) {
+                               Distance&& distance, int most_on_the_way = 0) {
   SphereToucher toucher(tree, radius);
   std::size_t touching = 0;
   int on_the_way = 0;
@@ -59,7 +58,7 @@ std::size_t expect_at_distance(const CsgTree& tree, double radius, std::uint64_t
     const double apart = distance(state.scp) - radius;
     EXPECT_GT(apart, -1e-9) << tip.transpose();
     on_the_way = state.converged ? 0 : on_the_way + 1;
-    EXPECT_LE(on_the_way, kMostOnTheWay) << tip.transpose();
+    EXPECT_LE(on_the_way, most_on_the_way) << tip.transpose();
     EXPECT_TRUE(state.touching ? apart < 1e-8 : state.scp == tip) << apart << " " << tip.transpose();
     touching += state.touching;
     if (testing::Test::HasFailure()) break;
@@ -103,7 +102,10 @@ TEST_P(SphereTips, RollRoundTheEdgeOfAHole) {
   const auto distance = [&](const Vector3& p) {
     return rectangle_distance(hole - std::hypot(p.x(), p.y()), std::abs(p.z()) - 0.5 * thick);
   };
-  EXPECT_GT(expect_at_distance(tree, GetParam(), 3, 0.012, distance), 500u / kSanitizerShare);
+  // A ball wider than the hole touches nearly all of its rim at once when it lies on the axis.
+  const int most_on_the_way = GetParam() > hole ? 5 : 0;
+  EXPECT_GT(expect_at_distance(tree, GetParam(), 3, 0.012, distance, most_on_the_way),
+            500u / kSanitizerShare);
 }
 
 // What is left of a ball when another is taken away: in the half-plane through both centres it is bounded by
