@@ -101,7 +101,7 @@ endfunction()
 # *_test.cpp files of this folder as one GoogleTest program, run as icome_unit_test says. Where only some of a folder's
 # code is threaded, THREADED names the tests of it, which are all that the thread sanitizer runs; where most of it is,
 # UNTHREADED names the others. EXCEPT names sources that belong to other targets. COMPUTES: the tests hold much against
-# brute force of their own, so that they are optimised under sanitizers too; that takes three times as long to compile.
+# brute force of their own, so that they are optimised a little; that takes clang three times as long to compile.
 function(icome_tests name)
   cmake_parse_arguments(ARG "COMPUTES" "SHARDS" "LINKS;THREADED;UNTHREADED;EXCEPT" ${ARGN})
   if(ICOME_SANITIZE STREQUAL "thread" AND ARG_THREADED)
@@ -122,12 +122,8 @@ function(icome_tests name)
   add_executable(${program})
   icome_sources(${program} ${sources})
   add_dependencies(icome_unit_tests ${program})
-  # Checks that run once need little optimising: what they check is optimised as users have it.
-  if(ICOME_SANITIZE AND NOT ARG_COMPUTES)
-    target_compile_options(${program} PRIVATE -O0)
-  else()
-    target_compile_options(${program} PRIVATE -O1)
-  endif()
+  # Checks that run once need no optimising: what they check is optimised as users have it.
+  target_compile_options(${program} PRIVATE $<IF:$<BOOL:${ARG_COMPUTES}>,-O1,-O0>)
   target_link_libraries(${program} PRIVATE icome_${name} icome_places GTest::gtest_main ${ARG_LINKS})
   icome_unit_test(${name} ${program} ${ARG_SHARDS})
 endfunction()

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "sketch/fit/band_system.h"
 #include "sketch/fit/fit_error.h"
 
 namespace icome::sketch {
@@ -12,19 +11,21 @@ namespace {
 
 constexpr std::size_t kUnknowns = 5;   // of a joint: handle before, x, y, direction, handle after
 constexpr double kAlongWeight = 0.03;  // of distance along the curve beside that across it
-constexpr int kEvenRounds = 3;         // rounds in which all distances count alike
-constexpr double kHighPower = 16.0;    // of distances, afterwards
+constexpr int kFirstPower = 2;         // of distances: all count alike
+constexpr int kPowerOfRound = 1;       // by which it grows
+constexpr int kPowerOfStop = 4;        // the same, where no step helps
+constexpr int kMostPower = 16;
 constexpr double kLeastWeight = 1e-3;  // of a point that the curve goes through, beside the farthest
 constexpr int kStepsAtFirst = 8;       // of Newton's method, to find where points belong on the curve
 constexpr int kStepsAgain = 2;
-constexpr double kShortened = 0.1;        // of a handle, at most this is left by a round
-constexpr double kShortestHandle = 1e-3;  // of the distance that is enough, or it has no direction
+constexpr double kShortened = 0.1;  // of a handle, at most this is left by a round
 constexpr double kFirstDamping = 1e-3;
 constexpr double kMoreDamping = 8.0;   // after each attempt
 constexpr double kLessDamping = 0.02;  // after one that was better
-constexpr int kMostAttempts = 5;
+constexpr int kMostAttempts = 7;
 constexpr double kAim = 0.95;         // of what is enough, since points do not tell all
 constexpr double kResolution = 0.02;  // of the distance that is enough, by which certified ones may be above
+constexpr double kHopeless = 2.0;     // of what is enough, after the rounds of hope
 constexpr double kSlow = 0.995;  // a round that leaves more than this of the greatest distance is the last
 
 Vector2 direction_of(double angle) { return {std::cos(angle), std::sin(angle)}; }
@@ -38,6 +39,34 @@ double mean_direction(const Vector2& a, const Vector2& b) {
   return sum.norm() > 1e-6 ? angle_of(sum) : angle_of(a);
 }
 
+/// Takes much less time than std::pow().
+double raised(double base, int power) {
+  double result = 1.0;
+  for (; power > 0; power /= 2, base *= base)
+    if (power % 2 == 1) result *= base;
+  return result;
+}
+
+/// A cubic by the powers of t: takes less time where many places of it are asked for.
+class Powers {
+ public:
+  explicit Powers(const CubicBezier& curve)
+      : constant_(curve.points[0]),
+        linear_(3.0 * (curve.points[1] - curve.points[0])),
+        square_(3.0 * (curve.points[2] - 2.0 * curve.points[1] + curve.points[0])),
+        cube_(curve.points[3] - curve.points[0] + 3.0 * (curve.points[1] - curve.points[2])) {}
+
+  Vector2 at(double t) const { return constant_ + t * (linear_ + t * (square_ + t * cube_)); }
+  Vector2 derivative(double t) const { return linear_ + t * (2.0 * square_ + 3.0 * t * cube_); }
+  Vector2 second_derivative(double t) const { return 2.0 * square_ + 6.0 * t * cube_; }
+
+ private:
+  Vector2 constant_;
+  Vector2 linear_;
+  Vector2 square_;
+  Vector2 cube_;
+};
+
 }  // namespace
 
 /// A point of the way, and where the curve is nearest to it.
@@ -47,74 +76,69 @@ struct SmoothSpline::Place {
   double distance = 0.0;
 };
 
-/// The normal equations for one round.
-class SmoothSpline::Normal {
+/// The part that points beside one segment have in the normal equations. Unknowns are x, y, direction and
+/// handle of the first joint; handle, x, y and direction of the last.
+class SmoothSpline::Equations {
  public:
-  explicit Normal(std::size_t joints) : system_(kUnknowns * joints) {}
-
-  void begin(const SmoothSpline& spline, const Freedom& freedom) {
-    system_.clear();
-    for (std::size_t i = 0; i < system_.size(); ++i) system_.add(i, i, 1e-9);
-    spline_ = &spline;
-    freedom_ = freedom;
+  Equations(const SmoothSpline& spline, std::size_t segment, const Beyond& beyond)
+      : curve_(spline.segment(segment)),
+        from_(spline.joints_[segment]),
+        to_(spline.joints_[segment + 1]),
+        leaves_(direction_of(from_.direction)),
+        arrives_(direction_of(to_.direction)) {
+    const bool is_first = segment == 0;
+    const bool is_last = segment + 1 == spline.segments();
+    if (is_first) free_.head<2>().setZero();
+    if (is_first && beyond.first) free_[2] = 0.0;
+    if (is_last) free_.segment<2>(5).setZero();
+    if (is_last && beyond.last) free_[7] = 0.0;
   }
 
-  void add(const Place& place, const Vector2& point, double weight) {
-    const Joint& from = spline_->joints_[place.segment];
-    const Joint& to = spline_->joints_[place.segment + 1];
-    const CubicBezier curve = spline_->segment(place.segment);
-    const double t = place.t;
-    const double u = 1.0 - t;
-    const double b0 = u * u * u;
-    const double b1 = 3.0 * t * u * u;
-    const double b2 = 3.0 * t * t * u;
-    const double b3 = t * t * t;
-    const Vector2 way_from = direction_of(from.direction);
-    const Vector2 way_to = direction_of(to.direction);
-    const bool first_moves = moves(place.segment);
-    const bool last_moves = moves(place.segment + 1);
-    // Columns: x, y, direction, handle of the first joint; handle, x, y, direction of the last.
-    Eigen::Matrix<double, 2, 8> columns = Eigen::Matrix<double, 2, 8>::Zero();
-    if (first_moves) columns.leftCols<2>() = (b0 + b1) * Eigen::Matrix2d::Identity();
-    if (turns(place.segment)) columns.col(2) = b1 * from.after * across(way_from);
-    columns.col(3) = b1 * way_from;
-    columns.col(4) = -b2 * way_to;
-    if (last_moves) columns.middleCols<2>(5) = (b2 + b3) * Eigen::Matrix2d::Identity();
-    if (turns(place.segment + 1)) columns.col(7) = -b2 * to.before * across(way_to);
-    add_rows(kUnknowns * place.segment + 1, columns, curve, t, point, weight);
-  }
-
-  std::vector<double> step(double damping) const { return system_.solve(damping); }
-
- private:
-  bool moves(std::size_t joint) const { return joint > 0 && joint < spline_->segments(); }
-  bool turns(std::size_t joint) const {
-    return moves(joint) || (joint == 0 ? freedom_.turn_first : freedom_.turn_last);
-  }
-
-  void add_rows(std::size_t base, const Eigen::Matrix<double, 2, 8>& columns, const CubicBezier& curve,
-                double t, const Vector2& point, double weight) {
-    const Vector2 away = point - curve.at(t);
-    Vector2 along = curve.derivative(t);
+  void add(const Vector2& point, double t, double weight) {
+    const Vector2 away = point - curve_.at(t);
+    Vector2 along = curve_.derivative(t);
     const double speed = along.norm();
     if (speed > 0.0) along /= speed;
-    const Eigen::Matrix<double, 1, 8> rows[2] = {across(along).transpose() * columns,
-                                                 along.transpose() * columns};
-    const double misses[2] = {across(along).dot(away), along.dot(away)};
-    const double weights[2] = {weight, kAlongWeight * weight};
-    for (int row = 0; row < 2; ++row) {
-      for (std::size_t i = 0; i < 8; ++i) {
-        const double left = weights[row] * rows[row][Eigen::Index(i)];
-        system_.add_right(base + i, left * misses[row]);
-        for (std::size_t j = 0; j <= i; ++j)
-          system_.add(base + i, base + j, left * rows[row][Eigen::Index(j)]);
-      }
+    add_row(t, across(along), across(along).dot(away), weight);
+    add_row(t, along, along.dot(away), kAlongWeight * weight);
+  }
+
+  void add_to(BandSystem& system, std::size_t first_unknown) const {
+    for (std::size_t i = 0; i < 8; ++i) {
+      system.add_right(first_unknown + i, right_[Eigen::Index(i)]);
+      for (std::size_t j = 0; j <= i; ++j)
+        system.add(first_unknown + i, first_unknown + j, left_(Eigen::Index(i), Eigen::Index(j)));
     }
   }
 
-  BandSystem system_;
-  const SmoothSpline* spline_ = nullptr;
-  Freedom freedom_;
+ private:
+  using Row = Eigen::Matrix<double, 8, 1>;
+
+  /// The distance `miss` in a direction is to be gone by moves of the place at t.
+  void add_row(double t, const Vector2& way, double miss, double weight) {
+    const double u = 1.0 - t;
+    const double b1 = 3.0 * t * u * u;
+    const double b2 = 3.0 * t * t * u;
+    const double first = u * u * u + b1;
+    const double last = b2 + t * t * t;
+    Row row;
+    row << first * way.x(), first * way.y(), b1 * from_.after * way.dot(across(leaves_)),
+        b1 * way.dot(leaves_), -b2 * way.dot(arrives_), last * way.x(), last * way.y(),
+        -b2 * to_.before * way.dot(across(arrives_));
+    row.array() *= free_.array();
+    const Row weighed = weight * row;
+    left_.noalias() += weighed * row.transpose();
+    right_ += miss * weighed;
+  }
+
+  Powers curve_;
+  const Joint& from_;
+  const Joint& to_;
+  Vector2 leaves_;
+  Vector2 arrives_;
+  Row free_ = Row::Ones();  // 0 where an unknown stays as it is
+  Eigen::Matrix<double, 8, 8> left_ = Eigen::Matrix<double, 8, 8>::Zero();
+  Row right_ = Row::Zero();
 };
 
 SmoothSpline SmoothSpline::through(std::span<const CubicBezier> segments) {
@@ -145,13 +169,13 @@ std::vector<CubicBezier> SmoothSpline::curve() const {
 
 double SmoothSpline::find_places(std::span<const Vector2> points, std::vector<Place>& places,
                                  int steps) const {
+  std::vector<Powers> curves;
+  for (std::size_t i = 0; i < segments(); ++i) curves.emplace_back(segment(i));
   double greatest = 0.0;
-  std::size_t made = std::numeric_limits<std::size_t>::max();
-  CubicBezier curve;
   for (std::size_t i = 0; i < points.size(); ++i) {
     Place& place = places[i];
     for (int step = 0; step < steps; ++step) {
-      if (made != place.segment) curve = segment(made = place.segment);
+      const Powers& curve = curves[place.segment];
       const Vector2 away = curve.at(place.t) - points[i];
       const Vector2 speed = curve.derivative(place.t);
       const double bend = speed.squaredNorm() + away.dot(curve.second_derivative(place.t));
@@ -164,8 +188,7 @@ double SmoothSpline::find_places(std::span<const Vector2> points, std::vector<Pl
       if (on) place = {place.segment + 1, 0.0};
       if (!back && !on) place.t = std::clamp(t, 0.0, 1.0);
     }
-    if (made != place.segment) curve = segment(made = place.segment);
-    place.distance = (curve.at(place.t) - points[i]).norm();
+    place.distance = (curves[place.segment].at(place.t) - points[i]).norm();
     greatest = std::max(greatest, place.distance);
   }
   return greatest;
@@ -195,9 +218,9 @@ std::vector<Place> spread_evenly(std::span<const Vector2> points, const std::vec
 
 /// The sum of a power of all distances in units of `scale`: what a round must lessen.
 template <typename Places>
-double sum_of_powers(const Places& places, double scale, double power) {
+double sum_of_powers(const Places& places, double scale, int power) {
   double sum = 0.0;
-  for (const auto& place : places) sum += std::pow(place.distance / scale, power);
+  for (const auto& place : places) sum += raised(place.distance / scale, power);
   return sum;
 }
 
@@ -222,7 +245,7 @@ struct SmoothSpline::Approach {
   std::span<const Vector2> points;
   std::vector<Place> places;  // of the points on the spline as it is
   double greatest;            // distance of these
-  double power = 2.0;         // of distances, whose sum a round lessens
+  int power = kFirstPower;    // of distances, whose sum a round lessens
   double damping = kFirstDamping;
   std::vector<Joint> best;  // so far, by the greatest distance
   std::vector<Place> best_places;
@@ -252,10 +275,10 @@ SmoothSpline::Approach SmoothSpline::begin_approach(std::span<const Vector2> poi
 
 /// Takes the step of the normal equations, damped more and more until the sum of powers is less; false where
 /// it does not get less.
-bool SmoothSpline::take_step(const Normal& normal, Approach& approach, double scale) {
+bool SmoothSpline::take_step(const BandSystem& system, Approach& approach, double scale) {
   const double before = sum_of_powers(approach.places, scale, approach.power);
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-    const std::vector<double> step = normal.step(approach.damping);
+    const std::vector<double> step = system.solve(approach.damping);
     approach.damping *= kMoreDamping;
     if (step.empty()) continue;
     SmoothSpline moved = moved_by(step);
@@ -271,37 +294,47 @@ bool SmoothSpline::take_step(const Normal& normal, Approach& approach, double sc
   return false;
 }
 
-/// One round: points count by a power of their distance. False where more rounds are of no use.
-bool SmoothSpline::run_round(Normal& normal, const Freedom& freedom, Approach& approach) {
+/// The normal equations of a round: points count by a power of their distance.
+void SmoothSpline::set_up(BandSystem& system, const Beyond& beyond, const Approach& approach) const {
+  system.clear();
+  for (std::size_t i = 0; i < system.size(); ++i) system.add(i, i, 1e-9);
+  std::size_t i = 0;
+  while (i < approach.places.size()) {
+    const std::size_t segment = approach.places[i].segment;
+    Equations equations(*this, segment, beyond);
+    for (; i < approach.places.size() && approach.places[i].segment == segment; ++i) {
+      const Place& place = approach.places[i];
+      equations.add(approach.points[i], place.t,
+                    raised(place.distance / approach.greatest, approach.power - 2) + kLeastWeight);
+    }
+    equations.add_to(system, kUnknowns * segment + 1);
+  }
+}
+
+/// One round, after which great distances weigh more. False where more rounds are of no use.
+bool SmoothSpline::run_round(BandSystem& system, const Beyond& beyond, Approach& approach) {
   const double scale = approach.greatest;
-  normal.begin(*this, freedom);
-  for (std::size_t i = 0; i < approach.points.size(); ++i) {
-    const Place& place = approach.places[i];
-    normal.add(place, approach.points[i],
-               std::pow(place.distance / scale, approach.power - 2.0) + kLeastWeight);
-  }
-  const bool better = take_step(normal, approach, scale);
-  const bool is_late = approach.power > 2.0;
+  set_up(system, beyond, approach);
+  const bool is_last_power = approach.power >= kMostPower;
+  const bool better = take_step(system, approach, scale);
   approach.keep_if_best(*this);
-  if (is_late) return better && !(approach.greatest > kSlow * scale);
-  if (!better) {
-    approach.power = kHighPower;
-    approach.damping = kFirstDamping;
-  }
+  if (is_last_power && !(better && approach.greatest <= kSlow * scale)) return false;
+  approach.power = std::min(kMostPower, approach.power + (better ? kPowerOfRound : kPowerOfStop));
+  if (!better) approach.damping = kFirstDamping;
   return true;
 }
 
-double SmoothSpline::bring_near(std::span<const Vector2> points, const Freedom& freedom, double enough,
-                                int most_rounds) {
+double SmoothSpline::bring_near(std::span<const Vector2> points, const Beyond& beyond, double enough,
+                                const Effort& effort) {
   Approach approach = begin_approach(points);
-  Normal normal(joints_.size());
-  for (int round = 0; round < most_rounds; ++round) {
+  BandSystem system(kUnknowns * joints_.size());
+  for (int round = 0; round < effort.most_rounds; ++round) {
     if (!(approach.least > kAim * enough) || !std::isfinite(approach.greatest)) break;
-    if (round == kEvenRounds) approach.power = kHighPower;
-    if (!run_round(normal, freedom, approach)) break;
+    if (round >= effort.rounds_of_hope && approach.least > kHopeless * enough) break;
+    if (!run_round(system, beyond, approach)) break;
   }
   joints_ = std::move(approach.best);
-  return note_errors(points, approach.best_places, kResolution * enough);
+  return note_errors(points, approach.best_places, beyond, kResolution * enough);
 }
 
 void SmoothSpline::replace(std::size_t first, std::size_t last, const SmoothSpline& part) {
@@ -320,27 +353,30 @@ void SmoothSpline::replace(std::size_t first, std::size_t last, const SmoothSpli
 }
 
 double SmoothSpline::note_errors(std::span<const Vector2> points, const std::vector<Place>& places,
-                                 double resolution) {
+                                 const Beyond& beyond, double resolution) {
   points_before_.assign(joints_.size(), 0);
   for (const Place& place : places) ++points_before_[place.segment + 1];
   for (std::size_t j = 1; j < joints_.size(); ++j) points_before_[j] += points_before_[j - 1];
   errors_.clear();
   std::vector<Vector2> line;
+  Vector2 start = beyond.first.value_or(points.front());
   for (std::size_t i = 0; i < segments(); ++i) {
-    line.assign(1, beside_joint(points, i));
+    const bool is_last = i + 1 == segments();
+    const Vector2 end = is_last ? beyond.last.value_or(points.back()) : place_of_way(points, i + 1);
+    line.assign(1, start);
     line.insert(line.end(), points.begin() + std::ptrdiff_t(points_before_[i]),
                 points.begin() + std::ptrdiff_t(points_before_[i + 1]));
-    line.push_back(beside_joint(points, i + 1));
-    const CubicBezier curve = segment(i);
-    errors_.push_back(certified_distance(line, curve, resolution));
+    line.push_back(end);
+    errors_.push_back(certified_distance(line, segment(i), resolution));
+    start = end;
   }
   return *std::max_element(errors_.begin(), errors_.end());
 }
 
-Vector2 SmoothSpline::beside_joint(std::span<const Vector2> points, std::size_t joint) const {
+Vector2 SmoothSpline::place_of_way(std::span<const Vector2> points, std::size_t joint) const {
   const std::size_t next = points_before_[joint];
-  if (joint == 0 || next == 0) return points.front();
-  if (joint == segments() || next == points.size()) return points.back();
+  if (next == 0) return points.front();
+  if (next == points.size()) return points.back();
   const Vector2 way = points[next] - points[next - 1];
   const double part = (joints_[joint].place - points[next - 1]).dot(way) / way.squaredNorm();
   return points[next - 1] + std::clamp(part, 0.0, 1.0) * way;

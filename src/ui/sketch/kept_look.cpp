@@ -15,11 +15,11 @@ struct KeptNumber {
   double SketchLook::*value;
   double least, most;
 };
-constexpr std::array<KeptNumber, 2> kNumbers = {
+constexpr std::array<KeptNumber, 2> kKeptNumbers = {
     {{"opacity", &SketchLook::opacity, 0.0, 1.0},
      {"eraser_radius", &SketchLook::eraser_radius, kLeastEraser, kWidestTip}}};
 
-constexpr std::array<std::pair<const char*, bool SketchLook::*>, 6> kSwitches = {
+constexpr std::array<std::pair<const char*, bool SketchLook::*>, 6> kKeptSwitches = {
     {{"whole_strokes", &SketchLook::whole_strokes},
      {"constant_width", &SketchLook::constant_width},
      {"predict", &SketchLook::predict},
@@ -43,9 +43,9 @@ drawing::Colour kept_colour(const QSettings& kept, const char* name, const drawi
 void take_kept_look(const QSettings& kept, SketchLook& look) {
   look.colour = kept_colour(kept, "colour", look.colour);
   look.fill = kept_colour(kept, "fill", look.fill);
-  for (const KeptNumber& it : kNumbers)
+  for (const KeptNumber& it : kKeptNumbers)
     look.*it.value = kept_number(kept, it.name, look.*it.value, it.least, it.most);
-  for (const auto& [name, flag] : kSwitches) look.*flag = kept.value(name, look.*flag).toBool();
+  for (const auto& [name, flag] : kKeptSwitches) look.*flag = kept.value(name, look.*flag).toBool();
   look.tip.thinnest = kept_number(kept, "thinnest", look.tip.thinnest, 0.0, kWidestTip);
   look.tip.widest = kept_number(kept, "widest", look.tip.widest, 0.0, kWidestTip);
   sketch::PressureCurve& pressure = look.pressure;
@@ -61,8 +61,8 @@ void take_kept_look(const QSettings& kept, SketchLook& look) {
 void keep_look(const SketchLook& look, QSettings& kept) {
   kept.setValue("colour", screen_colour(look.colour).name());
   kept.setValue("fill", screen_colour(look.fill).name());
-  for (const KeptNumber& it : kNumbers) kept.setValue(it.name, look.*it.value);
-  for (const auto& [name, flag] : kSwitches) kept.setValue(name, look.*flag);
+  for (const KeptNumber& it : kKeptNumbers) kept.setValue(it.name, look.*it.value);
+  for (const auto& [name, flag] : kKeptSwitches) kept.setValue(name, look.*flag);
   kept.setValue("thinnest", look.tip.thinnest);
   kept.setValue("widest", look.tip.widest);
   kept.setValue("lightest", look.pressure.lightest);

@@ -84,7 +84,7 @@ TriangleMesh sliver_sheet() {
 }
 
 /// Every triangle with corners of its own.
-TriangleMesh soup(const TriangleMesh& mesh) {
+TriangleMesh unjoined(const TriangleMesh& mesh) {
   TriangleMesh result;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto first = std::uint32_t(result.positions.size());
@@ -109,7 +109,7 @@ std::vector<JudgedMesh> judged_meshes() {
       {"BumpyShell", bumpy(17), true, both},
       {"Box", shared(box), true, front},
       {"Twice", shared(joined(box, box)), true, front},
-      {"Soup", shared(soup(box)), true, front},
+      {"Soup", shared(unjoined(box)), true, front},
       {"Wall", shared(box_mesh({0.1, 0.1, 0.001})), true, front},
       {"WallShell", shared(box_mesh({0.1, 0.1, 0.001})), true, both},
       {"Sheet", shared(height_field(0.1, 1, [](double, double) { return 0.0; })), false, both},

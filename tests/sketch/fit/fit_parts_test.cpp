@@ -9,6 +9,7 @@
 #include "sketch/fit/cubic_fit.h"
 #include "sketch/fit/fit_error.h"
 #include "sketch/fit/running_fit.h"
+#include "sketch/fit/smooth_spline.h"
 #include "sketch/fit/thesis_fit.h"
 #include "sketch/fit/width_fit.h"
 
@@ -187,6 +188,21 @@ TEST(CurveMoments, GiveTheCubicThatTheyAreOf) {
   const CubicBezier held = moments.cubic(line.front(), line.back(), along, up);
   EXPECT_NEAR((held.points[1] - held.points[0]).x(), 0.0, 1e-12);
   EXPECT_GT((held.points[1] - held.points[0]).y(), 0.0);
+}
+
+// Joints that lie between points were taken for as far away as the next point is.
+TEST(SmoothSpline, APartOfItIsAsNearAsItIsAlsoWhereItsEndsLieBetweenPoints) {
+  SmoothSpline whole(
+      {{{0, 0}, 0.0, 13, 13}, {{40, 0}, 0.0, 13, 13}, {{80, 0}, 0.0, 13, 13}, {{120, 0}, 0.0, 13, 13}});
+  std::vector<Vector2> points;
+  for (int i = 0; i <= 8; ++i) points.emplace_back(15 * i, 0.2 * (i % 2));
+  constexpr SmoothSpline::Effort kEffort = {.most_rounds = 25, .rounds_of_hope = 25};
+  EXPECT_LE(whole.bring_near(points, {}, 1.0, kEffort), 1.0);
+  const auto& before = whole.points_before();
+  SmoothSpline part({whole.joints()[1], whole.joints()[2]});
+  const std::span<const Vector2> of_part(points.data() + before[1], before[2] - before[1]);
+  const SmoothSpline::Beyond beyond = {whole.place_of_way(points, 1), whole.place_of_way(points, 2)};
+  EXPECT_LE(part.bring_near(of_part, beyond, 1.0, kEffort), 1.0);
 }
 
 TEST(BandSystem, SolvesAsADenseOne) {

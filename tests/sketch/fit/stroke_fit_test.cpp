@@ -277,6 +277,52 @@ TEST(FitStroke, ACircleHasNoCorner) {
   }
 }
 
+/// A random curve of cubics that turn without a break from one to the next, and samples on it at even t.
+struct KnownCurve {
+  std::size_t cubics;
+  PenStroke samples;
+};
+
+KnownCurve known_curve(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto between = [&](double least, double most) {
+    return least + (most - least) * double(random()) / double(std::mt19937::max());
+  };
+  KnownCurve known = {4 + random() % 20, {}};
+  Vector2 place = Vector2::Zero();
+  double direction = 0.0;
+  for (std::size_t i = 0; i < known.cubics; ++i) {
+    const double length = between(0.005, 0.03);
+    const double turn = between(-0.9, 0.9);
+    const double next = direction + turn + between(-1.2, 1.2);
+    const Vector2 end = place + polar(length, direction + turn);
+    const Vector2 second = place + polar(between(0.25, 0.45) * length, direction);
+    const Vector2 third = end - polar(between(0.25, 0.45) * length, next);
+    const CubicBezier cubic = {{place, second, third, end}};
+    const int samples = int(length / 3e-4);
+    for (int k = i == 0 ? 0 : 1; k <= samples; ++k)
+      known.samples.push_back({0.001 * double(known.samples.size()), cubic.at(double(k) / samples), 0.5});
+    place = end;
+    direction = next;
+  }
+  return known;
+}
+
+// The samples lie on those, so they are within the bound: the optimum has no more. A few curves may, not all.
+TEST(FitStroke, SmoothCurvesHaveNoMoreSegmentsThanTheCubicsThatTheyAreMadeOf) {
+  std::size_t ours = 0;
+  std::size_t known = 0;
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    const KnownCurve curve = known_curve(seed);
+    const FittedStroke fitted = fit_stroke(curve.samples, fit_settings(FitMethod::Exact, true));
+    EXPECT_LE(fitted.error, kFitError) << seed;
+    EXPECT_LE(fitted.curve.segments.size(), curve.cubics + 2) << seed;
+    ours += fitted.curve.segments.size();
+    known += curve.cubics;
+  }
+  EXPECT_LE(ours, known);
+}
+
 /// Places of equally spaced lengths along a curve, by adding up short chords.
 std::vector<double> places_by_length(const Curve& curve, int count) {
   constexpr int kSteps = 500;
