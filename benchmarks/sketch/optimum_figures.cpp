@@ -237,12 +237,12 @@ SketchRow optimum_row(const std::string& figure, std::size_t ours, std::size_t o
 
 void add_rows(SketchSection& section, const std::string& name, const Counts& counts, bool is_all) {
   const std::string which = fmt::format("{} ({})", name, counts.strokes);
-  section.rows.push_back(optimum_row(which + ": may break", counts.ours, counts.breaking, is_all));
+  section.rows.push_back(optimum_row(which + ": may break", counts.ours, counts.breaking, false));
   section.rows.push_back(
       optimum_row("  our first stage, may break", counts.own_breaking, counts.breaking, false));
   if (counts.smooth_strokes == 0) return;
   section.rows.push_back(optimum_row(fmt::format("  {} of them: smooth", counts.smooth_strokes),
-                                     counts.ours_beside_smooth, counts.smooth, false));
+                                     counts.ours_beside_smooth, counts.smooth, is_all));
   section.rows.push_back(optimum_row("  the same: smooth, beside may break (both DP)", counts.smooth,
                                      counts.breaking_beside_smooth, false));
 }

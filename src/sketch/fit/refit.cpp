@@ -16,10 +16,10 @@ constexpr double kHopeOfFit = 10.0;  // times the distance, from which more roun
 constexpr double kResolutionOfFit = 0.02;  // of the distance allowed
 constexpr SmoothSpline::Effort kEffortForAll = {.most_rounds = 30, .rounds_of_hope = 30};
 constexpr SmoothSpline::Effort kEffortForFew = {.most_rounds = 25, .rounds_of_hope = 4};
-constexpr std::size_t kBesideJoint = 8;  // segments on either side that move when a joint is taken out
-constexpr std::size_t kBesideRow = 2;    // and when a row of segments has one less
+constexpr std::size_t kBeside = 2;  // segments on either side that move when there is to be one less
 constexpr std::size_t kLongestRow = 6;
 constexpr int kMostCuttings = 40;
+constexpr double kTooMany = 1.2;  // of the cubics that may break: a beginning that needs more leads nowhere
 constexpr std::size_t kPointsOfASegment = 24;  // at least, that it is held against
 constexpr std::size_t kManySamples = 12;       // for one segment
 
@@ -87,11 +87,11 @@ class Refit {
   Refit(std::vector<Vector2> points, SmoothSpline spline, double within)
       : points_(std::move(points)), spline_(std::move(spline)), within_(within) {}
 
-  /// Cuts segments until all points are near enough. False if that does not come to an end.
-  bool cut_until_near() {
+  /// Cuts segments until all points are near enough. False if that takes more than `most`.
+  bool cut_until_near(std::size_t most) {
     for (int cutting = 0; cutting < kMostCuttings; ++cutting) {
       if (spline_.bring_near(points_, {}, within_, kEffortForAll) <= within_) return true;
-      if (spline_.segments() > points_.size()) return false;
+      if (spline_.segments() > most) return false;
       cut_worst();
     }
     return false;
@@ -146,7 +146,7 @@ class Refit {
     const double right = (ends[1].place - spline_.joints()[joint].place).norm();
     ends[0].after *= (left + right) / left;
     ends[1].before *= (left + right) / right;
-    return put_instead(joint - 1, joint + 1, ends, kBesideJoint);
+    return put_instead(joint - 1, joint + 1, ends);
   }
 
   /// One segment less from joint `first` on, the others longer by the same part.
@@ -164,15 +164,14 @@ class Refit {
     }
     joints.push_back(spline_.joints()[first + row]);
     joints.back().before *= longer;
-    return put_instead(first, first + row, joints, kBesideRow);
+    return put_instead(first, first + row, joints);
   }
 
-  /// Puts joints in the place of those from one to another, and brings them and `beside` segments on either
-  /// side near. False, and nothing is changed, where they do not come near enough.
-  bool put_instead(std::size_t from, std::size_t to, const std::vector<SmoothSpline::Joint>& joints,
-                   std::size_t beside) {
-    const std::size_t first = from > beside ? from - beside : 0;
-    const std::size_t last = std::min(spline_.segments(), to + beside);
+  /// Puts joints in the place of those from one to another, and brings them and a few segments beside them
+  /// near. False, and nothing is changed, where they do not come near enough.
+  bool put_instead(std::size_t from, std::size_t to, const std::vector<SmoothSpline::Joint>& joints) {
+    const std::size_t first = from > kBeside ? from - kBeside : 0;
+    const std::size_t last = std::min(spline_.segments(), to + kBeside);
     const auto old = spline_.joints().begin();
     std::vector<SmoothSpline::Joint> all(old + std::ptrdiff_t(first), old + std::ptrdiff_t(from));
     all.insert(all.end(), joints.begin(), joints.end());
@@ -194,11 +193,12 @@ class Refit {
   double within_;
 };
 
-/// The cubics without breaks, and as few as it takes; empty if that fails.
+/// The cubics without breaks, and as few as it takes; empty if more than `most` are needed at first.
 std::vector<CubicBezier> smooth_refit(const std::vector<Vector2>& points,
-                                      const std::vector<CubicBezier>& start, double within) {
+                                      const std::vector<CubicBezier>& start, double within,
+                                      std::size_t most) {
   Refit refit(points, SmoothSpline::through(start), within);
-  if (!refit.cut_until_near()) return {};
+  if (!refit.cut_until_near(most)) return {};
   refit.take_out_joints();
   refit.shorten_rows();
   return refit.spline().curve();
@@ -238,14 +238,16 @@ std::vector<CubicBezier> few_cubics(const StrokePath& path, std::size_t first, s
   const std::vector<CubicBezier> breaking = fewest_breaking_cubics(path, first, last, within);
   const std::vector<Vector2> points = close_points(path, first, last, breaking.size());
   // Beginning with too few leaves the fewest, mostly; where it does not, beginning with enough does.
+  const auto most = std::size_t(kTooMany * double(breaking.size())) + 2;
   std::vector<CubicBezier> best;
   for (const std::vector<CubicBezier>& start :
        {fewest_breaking_cubics(path, first, last, kTooFew * within), breaking}) {
-    const std::vector<CubicBezier> other = smooth_refit(points, start, within);
+    const std::vector<CubicBezier> other = smooth_refit(points, start, within, most);
     if (best.empty() || (!other.empty() && other.size() < best.size())) best = other;
   }
   // Sharp turns that no corner was made for may need cubics that break, if the pen's own do not help.
-  if (best.empty()) best = smooth_refit(points, segments_while_drawn(path, first, last), within);
+  if (best.empty())
+    best = smooth_refit(points, segments_while_drawn(path, first, last), within, points.size());
   return best.empty() ? breaking : best;
 }
 
