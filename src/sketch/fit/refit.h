@@ -14,7 +14,8 @@ namespace icome::sketch {
 std::vector<CubicBezier> few_cubics(const StrokePath& path, std::size_t first, std::size_t last,
                                     double within);
 
-/// The fewest cubics with their ends on points of the path, each within a distance of its part.
+/// Cubics with their ends on points of the path, each within a distance of its part and as long as was found.
+/// Dynamic programming, which lets one be shorter for the sake of the next, may find fewer.
 std::vector<CubicBezier> fewest_breaking_cubics(const StrokePath& path, std::size_t first, std::size_t last,
                                                 double within);
 
