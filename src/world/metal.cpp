@@ -20,9 +20,9 @@ float metal_of(const Material& material) {
   std::array<double, 3> own{};
   for (std::size_t i = 0; i < 3; ++i) own[i] = base::linear_from_srgb(double(material.diffuse[i]));
   const Colour specular = base::srgb_from_linear(metal_specular(own, double(*material.metallic)));
-  constexpr float kRounding = 1e-4F;
+  constexpr float kNearlyTheSame = 1e-4F;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (std::abs(specular[i] - material.specular[i]) > kRounding) return 0.0F;
+    if (std::abs(specular[i] - material.specular[i]) > kNearlyTheSame) return 0.0F;
   }
   return std::clamp(*material.metallic, 0.0F, 1.0F);
 }

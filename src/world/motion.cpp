@@ -124,12 +124,12 @@ struct Similarity {
 };
 
 std::optional<Similarity> similarity(const Affine3& frame) {
-  constexpr double kRounding = 1e-9;
+  constexpr double kNearlyIdentity = 1e-9;
   const base::Matrix3 linear = frame.linear();
   const double scale = std::cbrt(linear.determinant());
   if (!(scale > 0.0) || !std::isfinite(scale)) return std::nullopt;
   const base::Matrix3 turn = linear / scale;
-  if (!(turn.transpose() * turn).isIdentity(kRounding)) return std::nullopt;
+  if (!(turn.transpose() * turn).isIdentity(kNearlyIdentity)) return std::nullopt;
   return Similarity{Quaternion(turn).normalized(), scale, frame.translation()};
 }
 

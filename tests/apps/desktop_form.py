@@ -21,10 +21,7 @@ class Form:
     def __init__(self, desktop, operation, title):
         self.desktop = desktop
         self.parameters = parameters_of(operation)
-        desktop.key("ctrl+shift+p")
-        desktop.find_window("Find a Command")
-        desktop.type(title)
-        desktop.key("Return")
+        desktop.command(title)
         desktop.screen.ask("windowactivate", "--sync", desktop.window)
         self.choice = None
         first = next((it for it in self.asked() if not self.follows_selection(it)), self.asked()[0])

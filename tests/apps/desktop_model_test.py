@@ -55,11 +55,7 @@ class DesktopModelTest(ModelTest):
         self.keep(desktop, "model-create")
         desktop.key("Escape")
         # The box is selected: it is what goes.
-        desktop.key("ctrl+shift+p")
-        desktop.find_window("Find a Command")
-        desktop.type("delete")
-        self.keep(desktop, "model-palette")
-        desktop.key("Return")
+        desktop.command("delete", look=lambda: self.keep(desktop, "model-palette"))
         design = self.folder / "made.wrl"
         desktop.screen.ask("windowactivate", "--sync", desktop.window)
         desktop.key("ctrl+z", "ctrl+z")
@@ -98,14 +94,6 @@ class DesktopModelTest(ModelTest):
 
 
 class TechniqueTest(ModelTest):
-    @staticmethod
-    def command(desktop, words):
-        desktop.screen.ask("windowactivate", "--sync", desktop.window)
-        desktop.key("ctrl+shift+p")
-        desktop.find_window("Find a Command")
-        desktop.type(words)
-        desktop.key("Return")
-
     def test_the_miniature_is_seen(self):
         desktop = self.start("--theme", "dark", DEMO).open()
         desktop.wait_title(r"^demo\.wrl - ICOME")
@@ -116,7 +104,7 @@ class TechniqueTest(ModelTest):
             """How much of the scan's colour is in the lower half, where not the scan is but its copy."""
             return sum(y > 0.53 * picture.height for _, y in picture.places(is_clay))
         before = low_clay(desktop.settled_scene())
-        self.command(desktop, "world in miniature")
+        desktop.command("world in miniature")
         desktop.screen.ask("windowactivate", "--sync", desktop.window)
         _, _, width, height = desktop.scene_place()
         desktop.point((0.5 * width, 0.7 * height))
@@ -133,8 +121,8 @@ class TechniqueTest(ModelTest):
         desktop = self.start("--theme", "light", begun).open()
         desktop.wait_title(r"^begun\.icome - ICOME")
         desktop.key("t", "h")
-        self.command(desktop, "ray")
-        self.command(desktop, "record")
+        desktop.command("ray")
+        desktop.command("record")
         dialog = desktop.find_window("Record What Is Done Into")
         desktop.screen.ask("windowactivate", "--sync", dialog)
         desktop.key("ctrl+a")
@@ -150,7 +138,7 @@ class TechniqueTest(ModelTest):
         desktop.wait_title(r"^begun\.icome\* - ICOME")
         desktop.wait_scene("the lamp elsewhere", lambda it: it.changed(before) > 0.02)
         self.keep(desktop, "technique-recording")
-        self.command(desktop, "stop recording")
+        desktop.command("stop recording")
         wait_for("the recording", recording.exists)
         self.keep(desktop, "technique-recorded")
         desktop.screen.ask("windowactivate", "--sync", desktop.window)
@@ -177,10 +165,7 @@ class ExampleInWindowTest(ModelTest):
         """What is in the form just now, with all of it in sight."""
         if not self.PICTURES:
             return
-        desktop.key("ctrl+shift+p")
-        desktop.find_window("Find a Command")
-        desktop.type("home")
-        desktop.key("Return")
+        desktop.command("home")
         desktop.screen.ask("windowactivate", "--sync", desktop.window)
         desktop.settled_scene()
         self.keep(desktop, name)

@@ -208,6 +208,20 @@ class Desktop:
     def type(self, text):
         self.screen.ask("type", "--delay", "5", "--", text)
 
+    def command(self, words, look=None):
+        """By its name in the palette; `look` is called when the words are there. Keys go to whatever window has the
+        focus, so each step waits for the palette to have it, and to be gone."""
+        title = "Find a Command"
+        self.screen.ask("windowactivate", "--sync", self.window)
+        self.key("ctrl+shift+p")
+        self.screen.ask("windowactivate", "--sync", self.find_window(title))
+        self.type(words)
+        if look:
+            look()
+        self.key("Return")
+        wait_for("the palette to close",
+                 lambda: not self.screen.ask("search", "--onlyvisible", "--name", title, may_fail=True))
+
     def _at(self, place):
         left, top, _, _ = self.scene_place()
         return round(left + place[0]), round(top + place[1])

@@ -179,10 +179,7 @@ class DesktopSharingTest(DesktopTest):
 
     def say(self, desktop, text):
         """In the panel of people, by keyboard: its last stop is the line for words."""
-        desktop.key("ctrl+shift+p")
-        desktop.find_window("Find a Command")
-        desktop.type("people")
-        desktop.key("Return")
+        desktop.command("people")
         desktop.key("Tab", "Tab")
         desktop.type(text)
         desktop.key("Return")

@@ -143,10 +143,8 @@ class DesignDrawingTest(PaperTest):
     def test_what_is_drawn_is_in_the_design_at_once_and_undone_there(self):
         desktop, design = self.open_design()
         main = desktop.window
-        desktop.key("ctrl+a", "ctrl+shift+p")
-        desktop.find_window("Find a Command")
-        desktop.type("draw on it")
-        desktop.key("Return")
+        desktop.key("ctrl+a")
+        desktop.command("draw on it")
         desktop.window = desktop.find_window("in the design")
         self.draw_and_see_in_design(desktop)
         self.keep(desktop, "sketch-in-design")

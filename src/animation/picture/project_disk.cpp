@@ -17,8 +17,8 @@ namespace {
 
 bool is_picture(const std::filesystem::path& file) {
   const io::FileEnding ending = io::ending_of(file);
-  constexpr std::array<std::string_view, 5> kEndings = {".png", ".jpg", ".jpeg", ".svg", ".svgz"};
-  return !ending.packed && std::ranges::find(kEndings, ending.type) != kEndings.end();
+  constexpr std::array<std::string_view, 5> kPictures = {".png", ".jpg", ".jpeg", ".svg", ".svgz"};
+  return !ending.packed && std::ranges::find(kPictures, ending.type) != kPictures.end();
 }
 
 base::Result<std::vector<std::string>> pictures_below(const std::filesystem::path& home,

@@ -130,7 +130,7 @@ std::string menu_json_text(const Json& json) {
 }
 
 /// An element with what is needed to lay it out.
-struct Prepared {
+struct PreparedElement {
   Element element;
   std::size_t language = 0;
 };
@@ -140,7 +140,7 @@ Json value_json(const interaction::Value& value) { return Json::parse(interactio
 /// An element with some of its menus and pages open.
 class OpenElement {
  public:
-  OpenElement(const Prepared& prepared, std::vector<const Widget*> open, interaction::ShownParts shown)
+  OpenElement(const PreparedElement& prepared, std::vector<const Widget*> open, interaction::ShownParts shown)
       : prepared_(prepared),
         open_(std::move(open)),
         shown_(std::move(shown)),
@@ -238,14 +238,14 @@ class OpenElement {
     }
   }
 
-  const Prepared& prepared_;
+  const PreparedElement& prepared_;
   std::vector<const Widget*> open_;
   interaction::ShownParts shown_;
   interaction::ElementLayout layout_;
   interaction::ElementSettings settings_;
 };
 
-std::string layout_json(const Prepared& prepared, const ElementUse& use, const MenuOptions& options) {
+std::string layout_json(const PreparedElement& prepared, const ElementUse& use, const MenuOptions& options) {
   const OpenElement laid(prepared, {}, use.shown());
   const interaction::LaidSheet& sheet = use.layout().sheets.front();
   Json json{{"file", options.file.string()},
@@ -274,7 +274,7 @@ void append_rows(const Json& items, const std::string& indent, std::string& text
   }
 }
 
-std::string layout_text(const Prepared& prepared, const ElementUse& use, const MenuOptions& options) {
+std::string layout_text(const PreparedElement& prepared, const ElementUse& use, const MenuOptions& options) {
   std::string text =
       fmt::format("{}: a {}, turned by {:.4g} degrees; mm, world frame\n", options.file.string(),
                   word_of(prepared.element.kind), prepared.element.turn * 180.0 / std::numbers::pi);
@@ -331,10 +331,10 @@ std::string trial_text(const MenuTrial& trial) {
                     trial.tick_us.back());
 }
 
-base::Result<Prepared> prepare(const MenuOptions& options) {
+base::Result<PreparedElement> prepare(const MenuOptions& options) {
   auto element = interaction::read_element_file(options.file);
   if (!element) return tl::unexpected(element.error());
-  Prepared prepared{std::move(*element), 0};
+  PreparedElement prepared{std::move(*element), 0};
   const auto& languages = prepared.element.languages;
   if (!options.language.empty()) {
     const auto found = std::ranges::find(languages, options.language);
@@ -384,7 +384,8 @@ base::Result<void> write_picture(const ElementUse& use, const MenuOptions& optio
   return out->finish();
 }
 
-base::Result<std::string> answer_of(Prepared& prepared, const MenuOptions& options, StatusLine& status) {
+base::Result<std::string> answer_of(PreparedElement& prepared, const MenuOptions& options,
+                                    StatusLine& status) {
   prepared.element.choosing.by_click = !options.path || options.choose == "click";
   prepared.element.choosing.by_push = !options.path || options.choose == "push";
   prepared.element.choosing.by_look = options.path && options.choose == "look";

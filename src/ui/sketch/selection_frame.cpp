@@ -4,16 +4,16 @@
 #include <cmath>
 
 #include "sketch/tools/attraction.h"
+#include "ui/look/handle_reach.h"
 #include "ui/look/theme.h"
 #include "ui/sketch/canvas_tool.h"
 
 namespace icome::ui {
 namespace {
 
-constexpr double kBeside = 8.0;       // pixels between the points and the frame
-constexpr double kKnobAway = 22.0;    // pixels above the frame
-constexpr double kHandle = 4.0;       // half a corner's side, pixels
-constexpr double kHandleReach = 9.0;  // pixels
+constexpr double kBeside = 8.0;     // pixels between the points and the frame
+constexpr double kKnobAway = 22.0;  // pixels above the frame
+constexpr double kHandle = 4.0;     // half a corner's side, pixels
 constexpr double kLeastScaling = 0.01;
 constexpr std::size_t kMostDots = 3000;
 constexpr double kGridStep = 0.005;       // m
@@ -23,8 +23,6 @@ constexpr double kAngleWithin = 0.2 * kAngleStep;
 constexpr drawing::Bounds2::CornerType kCorners[] = {drawing::Bounds2::BottomLeft,
                                                      drawing::Bounds2::BottomRight,
                                                      drawing::Bounds2::TopRight, drawing::Bounds2::TopLeft};
-
-double distance(QPointF a, QPointF b) { return std::hypot(a.x() - b.x(), a.y() - b.y()); }
 
 Eigen::Affine2d about_place(const drawing::Vector2& place, const Eigen::Matrix2d& linear) {
   return Eigen::Translation2d(place) * Eigen::Affine2d(linear) * Eigen::Translation2d(-place);

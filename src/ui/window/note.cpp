@@ -22,7 +22,7 @@ std::string design_of(const session::RecoverableWork& work) {
 std::string device_topic(const SessionEvent& event) { return "device " + event.device; }
 
 /// "1 thing was", "2 things were".
-std::string counted(std::size_t count, const char* one, const char* many) {
+std::string counted_sentence(std::size_t count, const char* one, const char* many) {
   return count == 1 ? fmt::format(" 1 {}.", one) : fmt::format(" {} {}.", count, many);
 }
 
@@ -60,8 +60,8 @@ Note note_of(const SessionEvent& event) {
       note.topic = "file";
       note.weight = event.details.empty() ? Weight::Passing : Weight::Plain;
       if (!event.details.empty()) {
-        note.text += counted(event.details.size(), "thing in it was skipped or put right",
-                             "things in it were skipped or put right");
+        note.text += counted_sentence(event.details.size(), "thing in it was skipped or put right",
+                                      "things in it were skipped or put right");
       }
       break;
     case SessionEvent::Kind::OpenFailed:
@@ -80,8 +80,8 @@ Note note_of(const SessionEvent& event) {
     case SessionEvent::Kind::SavedInPart:
       note.topic = "file";
       note.weight = Weight::Warning;
-      note.text += counted(event.details.size(), "thing cannot be kept in this format",
-                           "things cannot be kept in this format");
+      note.text += counted_sentence(event.details.size(), "thing cannot be kept in this format",
+                                    "things cannot be kept in this format");
       note.remedies = {Remedy::SaveAs};
       break;
     case SessionEvent::Kind::SaveAsks:

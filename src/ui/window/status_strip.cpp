@@ -22,8 +22,8 @@ using devices::DeviceStatus;
 
 namespace {
 
-constexpr int kEvery = 66;        // ms
-constexpr int kStalledLooks = 8;  // in a row that are worth a word: half a second
+constexpr int kRefreshEvery = 66;  // ms
+constexpr int kStalledLooks = 8;   // in a row that are worth a word: half a second
 constexpr const char* kTouchedTip = "The object under the hand";
 
 /// A lamp that shows the state of the device.
@@ -172,7 +172,7 @@ StatusStrip::Parts::Parts(session::Session& of, StatusStrip& strip)
   row->addWidget(load, 3);
   row->addWidget(force, 4);
   QObject::connect(timer, &QTimer::timeout, &strip, [this] { look(); });
-  timer->setInterval(kEvery);
+  timer->setInterval(kRefreshEvery);
 }
 
 QWidget* StatusStrip::Parts::build_device(QWidget* strip) {

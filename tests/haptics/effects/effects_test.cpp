@@ -386,15 +386,15 @@ struct Flight {
 
 /// A device of 100 g that nobody holds: its force is held over a tick, and it moves as masses do.
 Flight let_fly(Effect& effect, Vector3 position, Vector3 velocity) {
-  constexpr double kMass = 0.1, kTick = 1e-3;
+  constexpr double kMass = 0.1, kStep = 1e-3;
   Flight flight;
   for (int tick = 0; tick < 3000; ++tick) {
     EffectInput input = tip_at(position, velocity);
     input.device_mass = kMass;
-    input.dt = kTick;
+    input.dt = kStep;
     const Vector3 acceleration = effect.force(input) / kMass;
-    position += kTick * velocity + 0.5 * kTick * kTick * acceleration;
-    velocity += kTick * acceleration;
+    position += kStep * velocity + 0.5 * kStep * kStep * acceleration;
+    velocity += kStep * acceleration;
     flight.fastest = std::max(flight.fastest, velocity.norm());
   }
   flight.last = velocity.norm();

@@ -120,7 +120,7 @@ TEST(Grip, NeedsTheMassForAllThatPullsAtOnePlace) {
 }
 
 TEST(Grip, TooHardForTheDeviceLetsItComeToRest) {
-  constexpr double kMass = 0.1, kTick = 1e-3;
+  constexpr double kMass = 0.1, kStep = 1e-3;
   for (const SpringSettings& hold : {SpringSettings{.stiffness = 1e6, .damping = kAutomaticDamping},
                                      SpringSettings{.stiffness = 100.0, .damping = 1e6}}) {
     GripFeel feel = bare();
@@ -130,10 +130,10 @@ TEST(Grip, TooHardForTheDeviceLetsItComeToRest) {
     for (int tick = 0; tick < 3000; ++tick) {
       EffectInput input = grip_at(position, velocity);
       input.device_mass = kMass;
-      input.dt = kTick;
+      input.dt = kStep;
       const Vector3 acceleration = grip_force(feel, input) / kMass;
-      position += kTick * velocity + 0.5 * kTick * kTick * acceleration;
-      velocity += kTick * acceleration;
+      position += kStep * velocity + 0.5 * kStep * kStep * acceleration;
+      velocity += kStep * acceleration;
     }
     EXPECT_LT(velocity.norm(), 1e-5);
   }

@@ -1,5 +1,6 @@
 #include "interaction/shaping/mesh_part.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -27,13 +28,24 @@ TriangleMesh crumpled(base::Random& random) {
   return mesh;
 }
 
-/// The smallest distance of the probe's line from a stretch, by trying.
+/// The smallest distance of the probe's line from a stretch, by trying 100 places on it and 100 between the
+/// neighbours of the best of them.
 double distance_by_trying(const PartProbe& probe, const Vector3& from, const Vector3& to) {
   double best = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= 2000; ++i) {
-    const Vector3 point = from + i / 2000.0 * (to - from);
-    const double t = std::max(0.0, (point - probe.from).dot(probe.along));
-    best = std::min(best, (point - probe.from - t * probe.along).norm() / probe.radius_at(t));
+  double nearest = 0.5;
+  double reach = 0.5;  // to both sides of `nearest`
+  for (int look = 0; look < 2; ++look) {
+    const double first = nearest - reach;
+    for (int i = 0; i <= 100; ++i) {
+      const double u = std::clamp(first + i / 50.0 * reach, 0.0, 1.0);
+      const Vector3 point = from + u * (to - from);
+      const double t = std::max(0.0, (point - probe.from).dot(probe.along));
+      const double distance = (point - probe.from - t * probe.along).norm() / probe.radius_at(t);
+      if (distance >= best) continue;
+      best = distance;
+      nearest = u;
+    }
+    reach = 0.01;
   }
   return best;
 }

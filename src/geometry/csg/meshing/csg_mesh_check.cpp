@@ -12,7 +12,7 @@ namespace {
 constexpr double kNearCells = 1.0;               // a place of the surface is not lost if the mesh is so near
 constexpr double kNarrowCells = 2.0;             // wider walls and gaps are not looked at
 constexpr double kChordCells = 0.1;              // meshes may be off by as much
-constexpr double kRounding = 1e-9;               // of the coordinates
+constexpr double kCoordinateRounding = 1e-9;     // of the coordinates
 constexpr std::size_t kMostAsked = 2000;         // atoms
 constexpr std::size_t kMostPairs = 5'000;        // of atoms that come near to each other
 constexpr std::size_t kMostLooked = 20'000'000;  // pairs of all atoms
@@ -27,7 +27,7 @@ class MeshCheck {
         triangles_(mesh),
         cell_(cell),
         shift_(shift),
-        rounding_(kRounding * largest_coordinate(program)) {}
+        rounding_(kCoordinateRounding * largest_coordinate(program)) {}
 
   std::optional<Vector3> lacks() {
     const std::size_t count = program_.atoms().size();
@@ -84,10 +84,10 @@ class MeshCheck {
 
   /// Is the surface farther from the place, as random directions tell, than meshes may be off?
   bool is_clear(const Vector3& place, bool inside) const {
-    constexpr int kDirections = 40;
+    constexpr int kPlaces = 40;
     base::Random random(3);
     bool clear = program_.inside(place) == inside;
-    for (int i = 0; i < kDirections && clear; ++i)
+    for (int i = 0; i < kPlaces && clear; ++i)
       clear = program_.inside(place + kChordCells * cell_ * random.direction()) == inside;
     return clear;
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "ui/look/handle_reach.h"
 #include "ui/look/theme.h"
 
 namespace icome::ui {
@@ -16,14 +17,11 @@ using animation::CellState;
 using animation::Hold;
 using animation::Vector2;
 
-constexpr double kHandleReach = 9.0;  // pixels around a handle that count as it
 constexpr double kHandleSide = 8.0;   // pixels
 constexpr double kTurnStalk = 26.0;   // pixels from the frame to the handle that turns
 constexpr double kPivotRadius = 5.5;  // pixels
 constexpr double kSmallestFactor = 0.01;
 constexpr double kStrictTurn = M_PI / 12.0;
-
-double distance(QPointF one, QPointF other) { return std::hypot(one.x() - other.x(), one.y() - other.y()); }
 
 /// A turn, counter-clockwise as seen, where y goes down.
 Vector2 turned_as_seen(const Vector2& way, double angle) {
