@@ -10,6 +10,8 @@ constexpr double kShortestPause = 1.0 / 30.0;        // s
 constexpr double kShortestMotionPause = 1.0 / 60.0;  // s, while objects move
 /// Pause after work: changing things are made anew for at most a quarter of the time of one core.
 constexpr double kPauseOfWork = 3.0;
+/// Work that was held up, say by other programs, is no reason to stand still for long.
+constexpr double kLongestPause = 2.0;  // s
 
 }  // namespace
 
@@ -53,7 +55,7 @@ void RenderFollower::go_on(const world::World& world) {
   if (scene) publish(scene);
   const double done = clock_();
   const double shortest = playback_.moves() ? kShortestMotionPause : kShortestPause;
-  due_ = done + std::max(shortest, kPauseOfWork * (done - now));
+  due_ = done + std::clamp(kPauseOfWork * (done - now), shortest, kLongestPause);
 }
 
 void RenderFollower::publish(const render::RenderScenePointer& scene) {

@@ -1,4 +1,9 @@
 // What changes with time is seen as it is felt: by one clock.
+#include "session/display/render_follower.h"
+
+#include <chrono>
+#include <vector>
+
 #include "session/sessions.h"
 #include "world/shape/solid_geometry.h"
 
@@ -60,6 +65,24 @@ TEST(RenderFollower, WhatDoesNotChangeIsMadeOnce) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_EQ(session->view().drawn(), drawn);
+}
+
+TEST(RenderFollower, GoesOnSoonAfterWorkThatWasHeldUp) {
+  const auto session = start();
+  add_shape(*session, rising_floor(), base::Affine3::Identity(), "floor");
+  session->settle();
+  DisplayFeed display(1);
+  realtime::LatestValue<render::RenderScenePointer> newest;
+  const std::vector<double> times{1.0, 31.0, 31.0};  // begun, done 30 s later, and asked at once
+  std::size_t asked = 0;
+  RenderFollower follower(
+      display, newest, [&] { return times.at(asked++); }, true);
+  follower.open(session->world(), {});
+  follower.go_on(session->world());
+  const auto pause = follower.pause(session->world());
+  ASSERT_TRUE(pause);
+  EXPECT_GT(*pause, std::chrono::milliseconds(500));
+  EXPECT_LE(*pause, std::chrono::seconds(2));
 }
 
 }  // namespace
