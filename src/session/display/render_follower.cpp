@@ -10,7 +10,8 @@ constexpr double kShortestPause = 1.0 / 30.0;        // s
 constexpr double kShortestMotionPause = 1.0 / 60.0;  // s, while objects move
 /// Pause after work: changing things are made anew for at most a quarter of the time of one core.
 constexpr double kPauseOfWork = 3.0;
-/// Work that was held up, say by other programs, is no reason to stand still for long.
+/// Work of over two thirds of a second takes more than that quarter: as a rule other programs have held it
+/// up, which is no reason to stand still for long.
 constexpr double kLongestPause = 2.0;  // s
 
 }  // namespace
