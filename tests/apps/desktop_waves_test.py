@@ -5,8 +5,6 @@ import unittest
 from desktop_program import DEMO, DesktopTest, is_rubber, is_water, wait_for
 
 CLEARLY = 24  # of 255: more than refining a picture at rest changes
-
-
 STEP = 7  # of so many pixels one is looked at: all of them take seconds
 
 
