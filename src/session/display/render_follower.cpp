@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "session/pause_of_work.h"
+
 namespace icome::session {
 namespace {
 
 constexpr double kShortestPause = 1.0 / 30.0;        // s
 constexpr double kShortestMotionPause = 1.0 / 60.0;  // s, while objects move
-/// Pause after work: changing things are made anew for at most a quarter of the time of one core.
-constexpr double kPauseOfWork = 3.0;
-/// Work of over two thirds of a second takes more than that quarter: as a rule other programs have held it
-/// up, which is no reason to stand still for long.
-constexpr double kLongestPause = 2.0;  // s
 
 }  // namespace
 
@@ -56,7 +53,7 @@ void RenderFollower::go_on(const world::World& world) {
   if (scene) publish(scene);
   const double done = clock_();
   const double shortest = playback_.moves() ? kShortestMotionPause : kShortestPause;
-  due_ = done + std::clamp(kPauseOfWork * (done - now), shortest, kLongestPause);
+  due_ = done + pause_after_work(done - now, shortest);
 }
 
 void RenderFollower::publish(const render::RenderScenePointer& scene) {

@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <utility>
 
+#include "session/pause_of_work.h"
+
 namespace icome::session {
 namespace {
 
 constexpr double kShortestMoveTime = 0.008;  // s: well below what a thing takes to where it is put
-/// Pause after work: moving things are put elsewhere for at most a quarter of the time of one core.
-constexpr double kWorkShare = 3.0;
 
 }  // namespace
 
@@ -67,7 +67,7 @@ void HapticFollower::go_on(const world::World& world) {
     publish();
   }
   const double done = clock_();
-  due_ = done + std::max(kShortestMoveTime, kWorkShare * (done - now));
+  due_ = done + pause_after_work(done - now, kShortestMoveTime);
 }
 
 void HapticFollower::look_for_remarks(const world::World& world) {
