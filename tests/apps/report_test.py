@@ -5,7 +5,7 @@ import unittest
 from icome_program import ProgramTest, line, run
 
 FIELDS = ["model", "triangles", "build_seconds", "ticks", "rate_hz", "tick_us", "haptic_load", "overruns",
-          "lost_ticks", "max_force_n", "touch_fraction", "pops", "sticks", "silent", "pulls", "unjudged", "judge_unfinished",
+          "lost_ticks", "max_force_n", "touch_fraction", "pops", "sticks", "silent", "pulls", "unjudged", "late", "judge_unfinished",
           "texture", "effects", "capped", "peak_memory_bytes"]
 CUBE = "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1)) + \
     "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n"
@@ -46,11 +46,11 @@ class ReportTest(ProgramTest):
 
     def test_pops_and_sticks_are_null_until_checked(self):
         unchecked = self.report("sphere:0.05", "--path", self.path)
-        names = ("pops", "sticks", "silent", "pulls", "unjudged", "judge_unfinished")
+        names = ("pops", "sticks", "silent", "pulls", "unjudged", "late", "judge_unfinished")
         for name in names:
             self.assertIsNone(unchecked[name])
         checked = self.report("sphere:0.05", "--path", self.path, "--check")
-        self.assertEqual([checked[name] for name in names], [0, 0, 0, 0, 0, 0])
+        self.assertEqual([checked[name] for name in names], [0, 0, 0, 0, 0, 0, 0])
 
     def test_triangles_and_names_of_several_models_are_put_together(self):
         mesh = self.write("cube.obj", CUBE)
@@ -62,7 +62,7 @@ class ReportTest(ProgramTest):
         mesh = self.write("cube.obj", CUBE)
         text = self.succeeds("touch", mesh, "--path", self.path, "--check").stdout
         for words in ("cube.obj", "12 triangles", "closed", "2,601 ticks", "haptic load", "overruns", "of the ticks",
-                      "0 pops, 0 sticks, 0 silent ticks, 0 pulls, 0 unjudged"):
+                      "0 pops, 0 sticks, 0 silent ticks, 0 pulls, 0 unjudged, 0 late"):
             self.assertIn(words, text)
 
     def test_repairs_are_told(self):

@@ -33,6 +33,7 @@ std::string json_report(const TouchFigures& figures) {
   report["silent"] = count_or_null(figures.silent);
   report["pulls"] = count_or_null(figures.pulls);
   report["unjudged"] = count_or_null(figures.unjudged);
+  report["late"] = count_or_null(figures.late);
   report["judge_unfinished"] = count_or_null(figures.judge_unfinished);
   report["texture"] = figures.texture ? Json(*figures.texture) : Json(nullptr);
   report["effects"] = figures.effects;

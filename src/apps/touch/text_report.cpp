@@ -152,10 +152,11 @@ std::string text_report(const TouchFigures& figures, const std::vector<TouchMode
     table.row("lost", fmt::format("{} without the device", counted(figures.lost_ticks, "tick")));
   table.row("touched", fmt::format("{} of the ticks", percent(figures.touch_fraction)));
   table.row("force", fmt::format("at most {:.3g} N", figures.max_force));
-  if (figures.pops && figures.sticks && figures.silent && figures.pulls && figures.unjudged) {
-    table.row("check", fmt::format("{}, {}, {}, {}, {} unjudged", counted(*figures.pops, "pop"),
+  if (figures.pops && figures.sticks && figures.silent && figures.pulls && figures.unjudged && figures.late) {
+    table.row("check", fmt::format("{}, {}, {}, {}, {} unjudged, {} late", counted(*figures.pops, "pop"),
                                    counted(*figures.sticks, "stick"), counted(*figures.silent, "silent tick"),
-                                   counted(*figures.pulls, "pull"), grouped(*figures.unjudged)));
+                                   counted(*figures.pulls, "pull"), grouped(*figures.unjudged),
+                                   grouped(*figures.late)));
   }
   if (figures.judge_unfinished.value_or(0) > 0) {
     table.row("", fmt::format("{} of the check took too long: what they would have found is not counted",

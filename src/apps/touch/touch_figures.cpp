@@ -63,6 +63,7 @@ TouchFigures figures_of(const std::vector<TouchModel>& models, double build_seco
     figures.pulls = log.judge()->pulls();
     figures.judge_unfinished = log.judge()->unfinished();
     figures.unjudged = log.judge()->unjudged();
+    figures.late = log.judge()->late();
   }
   figures.texture = options.texture;
   for (const haptics::PlacedEffect& effect : effects_of(models, options))

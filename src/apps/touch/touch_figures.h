@@ -36,6 +36,7 @@ struct TouchFigures {
   std::optional<std::uint64_t> silent;
   std::optional<std::uint64_t> pulls;
   std::optional<std::uint64_t> unjudged;          // ticks of which the judge could not tell if they were pops
+  std::optional<std::uint64_t> late;              // ticks in which the contact was still on its way
   std::optional<std::uint64_t> judge_unfinished;  // questions of the judge that took too long
   std::optional<std::string> texture;             // as it was asked for
   std::vector<std::string> effects;               // as they were asked for, then those of designs

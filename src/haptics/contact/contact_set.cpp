@@ -16,6 +16,7 @@ constexpr int kMaxTurns = 4;           // times that it may be cut so
 constexpr double kMaxGrowth = 8.0;     // of the share from one step to the next, either way
 constexpr double kNudge = 1e-3;        // share of the pull that presses on contacts, less each time
 constexpr int kMaxSettles = 4;
+constexpr double kFall = 2.0;  // heights above contacts: the length of the pull that lets a place fall
 constexpr double kRoom = 1.1;  // lift of a way, relative to the least that it needs
 
 /// normal . step >= least
@@ -78,17 +79,17 @@ class Polyhedron {
     return pull + push * plane.normal;
   }
 
-  /// Both multipliers of the projection onto the line where two planes meet must push outwards.
+  /// Both multipliers of the projection onto the line where two planes meet must push outwards. By the sum
+  /// and the difference of the normals, which are at right angles: nearly parallel planes lose no digits.
   static std::optional<Vector3> on_two(const Vector3& pull, const HalfSpace& one, const HalfSpace& other) {
-    const double cosine = one.normal.dot(other.normal);
-    const double determinant = 1.0 - cosine * cosine;
-    if (determinant < kParallel) return std::nullopt;
+    const Vector3 sum = one.normal + other.normal, difference = one.normal - other.normal;
+    if (sum.squaredNorm() * difference.squaredNorm() < 4.0 * kParallel) return std::nullopt;
     const double a = one.least - one.normal.dot(pull);
     const double b = other.least - other.normal.dot(pull);
-    const double push_one = (a - cosine * b) / determinant;
-    const double push_other = (b - cosine * a) / determinant;
-    if (push_one < 0.0 || push_other < 0.0) return std::nullopt;
-    return pull + push_one * one.normal + push_other * other.normal;
+    const double by_sum = (a + b) / sum.squaredNorm();
+    const double by_difference = (a - b) / difference.squaredNorm();
+    if (by_sum < std::abs(by_difference)) return std::nullopt;
+    return pull + by_sum * sum + by_difference * difference;
   }
 
   /// Three planes meet in a point: the corner of the gap, next to where the SCP is.
@@ -202,7 +203,8 @@ ContactSet::Rest ContactSet::rest(const Vector3& position, const Vector3& goal, 
   Vector3 at = position;
   Vector3 last_at = position;
   Vector3 last_slope = Vector3::Zero();
-  double share = 1.0;  // of the pull
+  // Of the pull. A longer one than roundings are wide would lead beyond what their tangent planes tell.
+  double share = any_smooth() ? 1.0 : std::min(1.0, smallest_radius() / (goal - position).norm());
   double most = std::numeric_limits<double>::infinity();
   int turns = 0;
   bool sure = all_sure(before);
@@ -211,7 +213,7 @@ ContactSet::Rest ContactSet::rest(const Vector3& position, const Vector3& goal, 
     if (at != last_at) share = std::min(most, secant(share, at - last_at, last_slope - slope));
     const Vector3 step = Polyhedron(std::span(now).first(size_), tolerance).project(share * (goal - at));
     if (step.norm() <= tolerance.gap && free(now, tolerance)) return {at, true, sure};
-    const Footings there = footings(at + step);
+    Footings there = footings(at + step);
     sure = sure && all_sure(there);
     last_at = at;
     last_slope = slope;
@@ -220,14 +222,22 @@ ContactSet::Rest ContactSet::rest(const Vector3& position, const Vector3& goal, 
       ++turns;
       continue;
     }
-    const bool nearer = (goal - at - step).norm() <= (goal - best).norm() + tolerance.gap;
-    if (free(there, tolerance) && !nearer) {
-      share = most = kLessPull * share;
-      at = last_at = best;
-      now = footings(at);
-      continue;
+    const auto is_nearer = [&](const Vector3& place) {
+      return (goal - place).norm() <= (goal - best).norm() + tolerance.gap;
+    };
+    Vector3 next = at + step;
+    if (free(there, tolerance) && !is_nearer(next)) {
+      // Where contacts bulge, the end of a straight step lies above them.
+      next = fallen(next, there, goal, tolerance);
+      there = footings(next);
+      if (!free(there, tolerance) || !is_nearer(next)) {
+        share = most = kLessPull * share;
+        at = last_at = best;
+        now = footings(at);
+        continue;
+      }
     }
-    at += step;
+    at = next;
     now = there;
     if (free(now, tolerance)) best = at;
   }
@@ -238,6 +248,16 @@ ContactSet::Rest ContactSet::rest(const Vector3& position, const Vector3& goal, 
 Vector3 ContactSet::along(Footings at, const Vector3& pull, const Tolerance& tolerance) const {
   for (Footing& it : at) it.height = tolerance.gap;
   return Polyhedron(std::span(at).first(size_), tolerance).project(pull);
+}
+
+/// A place above the contacts, fallen towards `goal` as far as they let it, hardly sideways.
+Vector3 ContactSet::fallen(const Vector3& place, const Footings& at, const Vector3& goal,
+                           const Tolerance& tolerance) const {
+  double highest = 0.0;
+  for (std::size_t i = 0; i < size_; ++i) highest = std::max(highest, at[i].height);
+  const Vector3 pull = goal - place;
+  const double share = std::min(1.0, kFall * highest / std::max(pull.norm(), tolerance.gap));
+  return place + Polyhedron(std::span(at).first(size_), tolerance).project(share * pull);
 }
 
 /// Lets a place near the contacts fall onto them, hardly sideways, if that is nearer to `goal` than `best`.

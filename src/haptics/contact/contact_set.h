@@ -74,6 +74,8 @@ class ContactSet {
   Footings footings(const Vector3& position) const;
   Rest rest_on_one(const Vector3& goal, const Tolerance& tolerance);
   Vector3 along(Footings at, const Vector3& pull, const Tolerance& tolerance) const;
+  Vector3 fallen(const Vector3& place, const Footings& at, const Vector3& goal,
+                 const Tolerance& tolerance) const;
   Vector3 settled(Vector3 at, Vector3 best, const Vector3& goal, const Tolerance& tolerance) const;
   bool turned(const Footings& before, const Footings& now) const;
   bool free(const Footings& now, const Tolerance& tolerance) const;

@@ -24,6 +24,7 @@ constexpr double kSteepest = 0.1;        // rise of an arch for its length
 constexpr double kStride = 8.0;          // longest slide of a sphere tip, in lengths of its last one
 constexpr double kFarthest = 0.3;        // of its radius: a region's way ahead of a sphere tip in contact
 constexpr double kBulge = 0.3;    // rise of a way over an edge, times its radius, for the squared chord
+constexpr double kLeftOff = 0.5;  // of a step: height above contacts that are kept after it
 constexpr int kMaxHalvings = 24;  // of such a chord, until a region holds it
 
 }  // namespace
@@ -41,9 +42,8 @@ bool ScpSolver::advance(const Vector3& wanted) {
   const Vector3 from = position_;
   lifted_ = 0.0;
   const bool smooth = contacts_.any_smooth();
-  const SweepHit hit = smooth                    ? arch(step)
-                       : contacts_.any_guarded() ? hop(step)
-                                                 : sweep_on(step, contacts_.all());
+  const bool rounded = !smooth && contacts_.any_guarded();
+  const SweepHit hit = smooth ? arch(step) : rounded ? hop(step) : sweep_on(step, contacts_.all());
   if (region_.overflowed()) {  // too much geometry in too little space: hold still, never pop
     if (!spent()) {
       reach_ *= 0.5;
@@ -60,9 +60,12 @@ bool ScpSolver::advance(const Vector3& wanted) {
   met_ = hit.met;
   cut_ = !hit.met && step != wanted;
   const bool whole = !hit.met && !cut_ && (!smooth || contacts_.size() == held);
-  const double near = std::max(tolerance.touching(), lifted_);
+  // Off a rounded edge the way on may lead back to what the SCP has just left, which bounds it.
+  const double left = rounded ? kLeftOff * (position_ - from).norm() : 0.0;
+  const double near = std::max({tolerance.touching(), lifted_, left});
   contacts_.forget_if([&](const Element& contact) {
-    return height(contact, position_) > near || !covers(contact, position_, tolerance);
+    const bool met_again = hit.met && same_surface(contact, hit.contact);
+    return met_again || height(contact, position_) > near || !covers(contact, position_, tolerance);
   });
   if (hit.met) contacts_.add(hit.contact);
   return whole;
@@ -160,8 +163,13 @@ SweepHit ScpSolver::hop(Vector3& step) {
     }
     const Vector3 end = from + step;
     SweepHit hit = sweep_past(0.5 * step + *top, from, from);
-    if (!hit.met && !region_.overflowed()) hit = sweep_past(end - position_, end, end);
-    if (hit.met) lifted_ = 2.0 * top->norm();
+    const bool on = !hit.met && !region_.overflowed();
+    if (on && spent()) {
+      step = position_ - from;
+    } else if (on) {
+      hit = sweep_past(end - position_, end, end);
+    }
+    if (hit.met || spent()) lifted_ = 2.0 * top->norm();
     return hit;
   }
   step.setZero();

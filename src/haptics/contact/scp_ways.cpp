@@ -17,6 +17,7 @@ constexpr int kAsideSides = 8;
 constexpr int kStepsFromAside = 4;
 constexpr double kSamePull = 0.05;     // of its length: a change that opens no way
 constexpr double kRoundStep = 0.28;    // rad, along a rounded edge: no way over it is then too steep
+constexpr double kShorter = 0.25;      // of a way along a rounded edge that is too long
 constexpr double kEdgeWidth = 1024.0;  // gaps: what files round positions to
 constexpr int kStepsBeyond = 3;  // of an edge: to the next face, along it, and along the seam with another
 
@@ -118,20 +119,25 @@ Vector3 ScpSolver::next_round_step(const Vector3& tip, bool& exact) {
   goal_ = tip;
   ContactSet::Rest rest = contacts_.rest(position_, goal_, tolerance());
   exact = rest.exact && contacts_.size() == 1;
-  // The nearest place may lie round the edge, where no way along the edge leads nearer: then a part of the
-  // way, pressed on the edge.
   const Vector3 whole = rest.place - position_;
-  if (share < 1.0 || whole.norm() > longest || whole.dot(tangent) <= 0.0) {
-    exact = false;
-    const Vector3 pressed = tangent.normalized() + (pull - tangent).stableNormalized();
-    for (const double length : {longest, share * tangent.norm()}) {
-      if (length > longest || (share < 1.0 && length == longest)) continue;
-      goal_ = position_ + length * pressed;
-      rest = contacts_.rest(position_, goal_, tolerance());
-      if ((tip - rest.place).squaredNorm() < pull.squaredNorm()) break;
-    }
+  const bool onward = whole.dot(tangent) > 0.0;
+  if (share >= 1.0 && onward && whole.norm() <= longest) return whole;
+  exact = false;
+  const auto is_nearer = [&] { return (tip - rest.place).squaredNorm() < pull.squaredNorm(); };
+  if (share >= 1.0 && onward) {
+    goal_ = position_ + (longest / whole.norm()) * whole;
+    rest = contacts_.rest(position_, goal_, tolerance());
+    if (is_nearer()) return rest.place - position_;
   }
-  return rest.place - position_;
+  // The nearest place lies round the edge, where no way along the edge leads nearer: then a part of the way,
+  // pressed on the edge. A tip near the middle of the rounding pulls little, however long the way is.
+  const Vector3 pressed = tangent.normalized() + (pull - tangent).stableNormalized();
+  const double shortest = std::min(longest, share * tangent.norm());
+  for (double length = share < 1.0 ? shortest : longest;; length = std::max(kShorter * length, shortest)) {
+    goal_ = position_ + length * pressed;
+    rest = contacts_.rest(position_, goal_, tolerance());
+    if (length <= shortest || is_nearer()) return rest.place - position_;
+  }
 }
 
 /// Do the contacts say all about the free space around? Around convex elements that a sphere tip rounds no

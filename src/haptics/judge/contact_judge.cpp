@@ -25,6 +25,7 @@ constexpr int kMostStepsEver = 400'000;
 constexpr int kMostWalked = 100'000;         // triangles and falls of one search along a mesh
 constexpr int kMostWalkedEver = 4'000'000;   // of all of them
 constexpr int kMostMarkedEver = 20'000'000;  // triangles looked at to prove that meshes part places, all told
+constexpr int kLateTicks = 5;                // in a row: then an SCP on its way sticks
 constexpr int kPullTicks = 3;         // in a row: where the SCP goes round an edge a force may be late by one
 constexpr double kTellable = 30.0;    // times the noise: the least length that is told from none
 constexpr double kLeastForce = 1e-6;  // N; a smaller force is due to rounding
@@ -150,11 +151,15 @@ class ContactJudge::Court {
     const Passage passage = too_deep(tick.scp) ? Passage::Blocked : this->passage(tick.scp, tick.tip);
     judgement.pop = passage == Passage::Blocked;
     judgement.unjudged = passage == Passage::Unknown;
-    if (!judgement.pop) judgement.stick = sticks(tick.tip, tick.scp, tick.touching);
+    const bool could_move = !judgement.pop && sticks(tick.tip, tick.scp, tick.touching);
+    judgement.late = could_move && late_ < kLateTicks && came_nearer(tick);
+    judgement.stick = could_move && !judgement.late;
+    late_ = judgement.late ? late_ + 1 : 0;
     judgement.silent = unfelt(tick) && buried(tick.tip);
     pulling_ = pulls(tick) ? pulling_ + 1 : 0;
     judgement.pull = pulling_ >= kPullTicks;
     last_ = tick;
+    began_ = true;
     return judgement;
   }
 
@@ -255,6 +260,11 @@ class ContactJudge::Court {
   /// Is the tip on its way out to the SCP? Then damping may use up the spring's force, and along the normal
   /// of an edge more than that.
   bool leaving(const JudgedTick& tick) const { return (tick.tip - last_.tip).dot(tick.scp - tick.tip) > 0.0; }
+
+  /// Did the SCP come nearer to where the tip is now?
+  bool came_nearer(const JudgedTick& tick) const {
+    return began_ && (last_.scp - tick.tip).norm() - (tick.scp - tick.tip).norm() >= near_.stick;
+  }
 
   bool unfelt(const JudgedTick& tick) const {
     if (!tick.touching) return true;
@@ -508,12 +518,65 @@ class ContactJudge::Court {
         run(along, goal);
         go(from + move * along);
       }
+      for (const Vector3& along : ways_of_ball(from, move, onward)) go(from + move * along);
       for (const double cosine : kCosines) {
         for (const Vector3& side : ring<16>(onward))
           go(from + move * (cosine * onward + std::sqrt(1.0 - cosine * cosine) * side));
       }
     }
     return nearer;
+  }
+
+  /// A surface that the ball of a sphere tip touches, or may come to: as a plane.
+  struct Floor {
+    Vector3 normal;
+    double gap;  // m, to the ball
+  };
+
+  /// Those within a move of the ball around `from`, but for parallel ones; the nearest first.
+  std::vector<Floor> floors(const Vector3& from, double move) const {
+    constexpr std::size_t kMost = 12;
+    constexpr double kParallel = 0.999;
+    std::vector<Floor> all, apart;
+    const double radius = settings_.tip_radius;
+    for (const Party& party : parties_) {
+      if (!party.may_meet(from, from, radius + move)) continue;
+      const Vector3 own = party.in_object(from);
+      party.witness().touched(own, radius + move, [&](const Vector3& place) {
+        const Vector3 away = own - place;
+        if (away.norm() > 0.0) all.push_back({party.in_world(away.normalized()), away.norm() - radius});
+      });
+    }
+    std::ranges::sort(all, {}, &Floor::gap);
+    for (const Floor& it : all) {
+      const bool known = std::ranges::any_of(
+          apart, [&](const Floor& other) { return other.normal.dot(it.normal) > kParallel; });
+      if (!known && apart.size() < kMost) apart.push_back(it);
+    }
+    return apart;
+  }
+
+  /// The ways of a sphere tip along one surface that it touches, and along the groove between two, that lead
+  /// towards the pull and into none. A ball in a groove has no other, and directions at random miss them.
+  std::vector<Vector3> ways_of_ball(const Vector3& from, double move, const Vector3& pull) const {
+    std::vector<Vector3> ways;
+    if (settings_.tip_radius <= 0.0) return ways;
+    constexpr double kInto = 1e-3;  // of the move, as has_room() allows
+    const std::vector<Floor> around = floors(from, move);
+    const auto add = [&](const Vector3& along) {
+      const double length = along.norm();
+      if (length < 1e-6) return;
+      const Vector3 way = (along.dot(pull) < 0.0 ? -1.0 : 1.0) / length * along;
+      const auto allows = [&](const Floor& it) {
+        return move * it.normal.dot(way) >= -std::max(0.0, it.gap) - kInto * move;
+      };
+      if (std::ranges::all_of(around, allows)) ways.push_back(way);
+    };
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      add(pull - pull.dot(around[i].normal) * around[i].normal);
+      for (std::size_t k = 0; k < i; ++k) add(around[i].normal.cross(around[k].normal));
+    }
+    return ways;
   }
 
   /// The pull, the pull along the face that blocks it, and the pull along that and the face that blocks this.
@@ -589,22 +652,24 @@ class ContactJudge::Court {
   /// seen, which may lie just past an edge?
   bool free_by(const Starts& starts, const Vector3& move) const {
     return std::all_of(starts.begin(), starts.end(), [&](const Start& start) {
-      return passes(start.place, start.place + move) && has_room(start, start.place + move);
+      return passes(start.place, start.place + move) && has_room(start, start.place + move, near_.stick);
     });
   }
 
   /// May the tip go straight from `a` to `b`?
-  bool free(const Vector3& a, const Vector3& b) const { return passes(a, b) && has_room(start_at(a), b); }
+  bool free(const Vector3& a, const Vector3& b) const {
+    return passes(a, b) && has_room(start_at(a), b, (b - a).norm());
+  }
 
   /// Is there room for a sphere tip on a way that is free for its middle? It may reach into surfaces by
-  /// its overlap at the start, its bumps, and a thousandth of the way, which still tells walls from gaps
-  /// in a groove of a tenth of a degree.
-  bool has_room(const Start& start, const Vector3& b) const {
+  /// its overlap at the start, its bumps, and a thousandth of the way or of `longest`, if that is shorter,
+  /// which still tells walls from gaps in a groove of a tenth of a degree.
+  bool has_room(const Start& start, const Vector3& b, double longest) const {
     const Vector3& a = start.place;
     const double radius = settings_.tip_radius;
     if (radius <= 0.0) return true;
     const double length = (b - a).norm();
-    const double kept = radius - start.overlap - near_.bumps - 1e-3 * length;
+    const double kept = radius - start.overlap - near_.bumps - 1e-3 * std::min(length, longest);
     if (kept <= 0.0) return true;
     const int samples = std::max(2, int(std::ceil(2.0 * length / radius)));
     for (int i = samples; i > 0; --i) {
@@ -617,7 +682,9 @@ class ContactJudge::Court {
   std::vector<Party> parties_;
   Lengths near_;  // of the objects that the last tick had to do with
   JudgedTick last_;
+  bool began_ = false;
   int pulling_ = 0;  // ticks in a row
+  int late_ = 0;     // ticks in a row
   int steps_ = 0;    // tried by all searches for a way in all directions
   int walked_ = 0;   // by all searches along meshes
   int marks_left_ = kMostMarkedEver;
@@ -640,6 +707,7 @@ Judgement ContactJudge::judge(const JudgedTick& tick) {
   silent_ += judgement.silent;
   pulls_ += judgement.pull;
   unjudged_ += judgement.unjudged;
+  late_ += judgement.late;
   return judgement;
 }
 

@@ -61,6 +61,7 @@ struct Judgement {
   bool silent = false;
   bool pull = false;
   bool unjudged = false;  // no fault, but undecided
+  bool late = false;      // no fault, but not there yet
 
   bool fine() const { return !pop && !stick && !silent && !pull; }
 };
@@ -85,6 +86,10 @@ struct Judgement {
 /// and lies outside the friction cone; or the SCP is away from the tip though nothing is touched. No free
 /// move starts at a local minimum of the distance, so deep presses, thin walls, ridges and corners
 /// raise no false alarm. Directions are tried 15 degrees and more off the perpendicular of the pull.
+///
+/// Late, a tick and no stick: such a move is free, and the SCP is on its way; it came nearer to the tip by
+/// the length of the move or more, in at most five ticks in a row. A solver that counts what a tick may cost
+/// goes on in the next.
 ///
 /// Silent: the tip is more than the pop depth inside a solid and nothing is felt: nothing touched, or no
 /// force though the tip is not on its way out (there damping may use up all of the spring's).
@@ -118,6 +123,7 @@ class ContactJudge {
   /// missed.
   std::uint64_t unfinished() const;
   std::uint64_t unjudged() const { return unjudged_; }
+  std::uint64_t late() const { return late_; }
 
  private:
   class Court;
@@ -129,6 +135,7 @@ class ContactJudge {
   std::uint64_t silent_ = 0;
   std::uint64_t pulls_ = 0;
   std::uint64_t unjudged_ = 0;
+  std::uint64_t late_ = 0;
 };
 
 }  // namespace icome::haptics

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -51,6 +52,11 @@ class Witness {
   virtual bool overlaps(const base::Vector3& point, double radius) const {
     return overlap(point, radius) > 0.0;
   }
+
+  /// Calls `visit(nearest)` with the nearest place of each part of the surface that a ball of that radius
+  /// around `point` would touch from a side that stops it; of surfaces that have no parts, with none.
+  virtual void touched(const base::Vector3& /*point*/, double /*radius*/,
+                       const std::function<void(const base::Vector3&)>& /*visit*/) const {}
 
   /// Has it an inside that a tip must be kept out of?
   virtual bool solid() const = 0;

@@ -46,6 +46,15 @@ class MeshWitness final : public Witness {
     return deepest;
   }
 
+  void touched(const Vector3& point, double radius,
+               const std::function<void(const Vector3&)>& visit) const override {
+    tree_.around(point, radius, [&](std::uint32_t triangle) {
+      const Vector3 nearest = nearest_on(tree_.corners(triangle), point);
+      if ((point - nearest).norm() <= radius && (two_sided_ || front_of(triangle).dot(point - nearest) > 0.0))
+        visit(nearest);
+    });
+  }
+
   bool solid() const override { return closed_ && !two_sided_; }
   bool inside(const Vector3& point) const override { return solid() && winding(tree_, point) > 0; }
 

@@ -17,6 +17,9 @@ using geometry::TriangleMesh;
 
 constexpr std::size_t kFeatureGrain = 1 << 14;
 constexpr double kFlat = 1e-10;  // rad: faces reach over the wedge between them, their rims being as wide
+// rad: no ball comes to the bottom of a crack as narrow as this, but where the surface passes through itself
+// one may come to its edge from the other side.
+constexpr double kFoldedBack = 2.7;
 constexpr double kBendNoise = 2e-15;      // rad, of a bend over an edge as long as its triangles are high
 constexpr std::size_t kMostConvex = 24;   // edges at a corner: with more the corner is always kept
 constexpr std::size_t kFewestConvex = 3;  // of a corner away from rims
@@ -111,6 +114,7 @@ class Bends {
     const double straight = -area.dot(beyond_area) / area.norm();
     const double bend = std::atan2(rise, straight);
     const double unsure = kBendNoise * longest * along.squaredNorm() / (area.norm() * beyond_area.norm());
+    if (std::abs(bend) > kFoldedBack) return kFrontBit | kBackBit;
     if (std::abs(bend) > kFlat + unsure) return bend < 0.0 ? kFrontBit : kBackBit;
     return unsure < kFlat ? 0 : kFrontBit | kBackBit;
   }

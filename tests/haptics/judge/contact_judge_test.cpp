@@ -277,6 +277,21 @@ TEST(ContactJudge, CatchesAnScpThatLagsBehind) {
   }
 }
 
+// The SCP comes nearer to a tip that is still by 2 mm a tick.
+TEST(ContactJudge, LetsAnScpBeLateForFiveTicks) {
+  for (const JudgedObject& box : boxes()) {
+    ContactJudge judge = judge_of({box});
+    const Vector3 tip(0.02, 0.0, 0.049);
+    for (int i = 0; i < 10; ++i) {
+      const Judgement judgement = judge.judge({tip, {-0.03 + 2e-3 * i, 0.0, 0.05}, true});
+      EXPECT_EQ(judgement.late, i >= 1 && i <= 5) << i;
+      EXPECT_EQ(judgement.stick, i < 1 || i == 6) << i;
+      if (i >= 6) break;
+    }
+    EXPECT_EQ(judge.late(), 5U);
+  }
+}
+
 TEST(ContactJudge, LetsFrictionHoldWithinItsCone) {
   for (const JudgedObject& box : boxes()) {
     ContactJudge judge = judge_of({box}, 0.0, 0.5);

@@ -92,6 +92,7 @@ TEST(ContactJudge, AllowsForTheErrorOfAMeshThatStandsForASurface) {
     EXPECT_EQ(judge.sticks(), 0U);
     // One that stays behind while the tip goes on along the plane sticks.
     const Vector3 held(0.0, 0.0, radius + 1e-7);
+    judge.judge({held - 2e-3 * Vector3::UnitZ(), held, true, 0.45});
     EXPECT_TRUE(judge.judge({held + Vector3(5e-3, 0.0, -1e-3), held, true, 0.5}).stick);
   }
 }

@@ -80,6 +80,17 @@ TEST(MeshFeatures, AnInnerEdgeIsForTheInsideAlone) {
   EXPECT_EQ(found.both.edges, 18);
 }
 
+// Where a mesh passes through itself, a ball may come to the bottom of a crack from the other side.
+TEST(MeshFeatures, TheBottomOfANarrowCrackIsAnEdgeOfBothSides) {
+  for (const bool narrow : {false, true}) {
+    const double half = narrow ? 0.002 : 0.03;
+    const TriangleMesh block =
+        prism({{-.05, -.02}, {.05, -.02}, {.05, .02}, {half, .02}, {0, -.01}, {-half, .02}, {-.05, .02}},
+              {{0, 1, 4}, {1, 2, 3}, {1, 3, 4}, {0, 4, 5}, {0, 5, 6}}, 0.1);
+    EXPECT_EQ(counts(block).front.edges, narrow ? 21 : 20);
+  }
+}
+
 TEST(MeshFeatures, AFlatSheetHasItsRimAlone) {
   const FeatureCounts sheet = counts(height_field(0.1, 8, [](double, double) { return 0.0; }));
   EXPECT_EQ(sheet.both.edges, 32);
