@@ -123,21 +123,25 @@ Vector3 ScpSolver::next_round_step(const Vector3& tip, bool& exact) {
   const bool onward = whole.dot(tangent) > 0.0;
   if (share >= 1.0 && onward && whole.norm() <= longest) return whole;
   exact = false;
-  const auto is_nearer = [&] { return (tip - rest.place).squaredNorm() < pull.squaredNorm(); };
-  if (share >= 1.0 && onward) {
-    goal_ = position_ + (longest / whole.norm()) * whole;
+  const auto leads_nearer = [&](const Vector3& part) {
+    goal_ = position_ + part;
     rest = contacts_.rest(position_, goal_, tolerance());
-    if (is_nearer()) return rest.place - position_;
-  }
-  // The nearest place lies round the edge, where no way along the edge leads nearer: then a part of the way,
-  // pressed on the edge. A tip near the middle of the rounding pulls little, however long the way is.
+    return (tip - rest.place).squaredNorm() < pull.squaredNorm();
+  };
+  // The nearest place may lie round the edge, where no way along the edge leads nearer: then a part of the
+  // way, pressed on the edge. A tip near the middle of the rounding pulls round it by next to nothing,
+  // however long the way is; then a part of the whole way, or shorter ones.
   const Vector3 pressed = tangent.normalized() + (pull - tangent).stableNormalized();
-  const double shortest = std::min(longest, share * tangent.norm());
-  for (double length = share < 1.0 ? shortest : longest;; length = std::max(kShorter * length, shortest)) {
-    goal_ = position_ + length * pressed;
-    rest = contacts_.rest(position_, goal_, tolerance());
-    if (length <= shortest || is_nearer()) return rest.place - position_;
+  const double length = std::min(longest, share * tangent.norm());
+  if (share >= 1.0) {
+    if (leads_nearer(longest * pressed)) return rest.place - position_;
+    const bool part_of_whole = onward && contacts_.size() == 1;
+    if (part_of_whole && leads_nearer((longest / whole.norm()) * whole)) return rest.place - position_;
+    for (double shorter = kShorter * longest; shorter > length; shorter *= kShorter)
+      if (leads_nearer(shorter * pressed)) return rest.place - position_;
   }
+  leads_nearer(length * pressed);
+  return rest.place - position_;
 }
 
 /// Do the contacts say all about the free space around? Around convex elements that a sphere tip rounds no

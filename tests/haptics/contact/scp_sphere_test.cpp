@@ -2,16 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <span>
-#include <utility>
-#include <vector>
 
-#include "files/mesh/mesh_reader.h"
 #include "geometry/mesh/geodesic_sphere.h"
 #include "haptics/contact_world.h"
 #include "haptics/judge/contact_judge.h"
-#include "places.h"
 #include "repeats.h"
 
 namespace icome::haptics {
@@ -63,20 +58,20 @@ TEST(SphereTips, AreNeitherPassedNorHeldOnRoughMeshes) {
   }
 }
 
-// A tip next to an edge pulls its SCP round that by next to nothing, and along it by much more.
+// A tip next to an edge pulls its SCP round that by next to nothing, and along it as much or more.
 TEST(SphereTips, RoundAnEdgeInFewSteps) {
   const double radius = 0.005;
   Toucher toucher(HapticScene::compile({object(1, shape_of(shared(box_mesh({.1, .1, .1})), true, radius))}),
                   radius);
   Random random(9);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 200; ++i) {
     toucher.solver.reset();
     toucher.go({0.045, 0.0, 0.06}, {0.045, 0.0, 0.0499}, 3);
     const double beside = std::pow(10.0, random.uniform(-6.0, -4.0));  // m, off the side
-    const double along = random.uniform(-0.02, 0.02);
+    const double along = std::pow(10.0, random.uniform(-6.0, -2.0));
     const ScpState& state = toucher.step({0.05 + beside, along, 0.05 - 3.0 * beside});
-    EXPECT_TRUE(state.converged) << beside;
-    EXPECT_LE(state.iterations, 20) << beside;
+    EXPECT_TRUE(state.converged) << beside << " " << along;
+    EXPECT_LE(state.iterations, 20) << beside << " " << along;
     EXPECT_LT((state.scp - Vector3(0.05 + radius, along, 0.05 - 3.0 * beside)).norm(), 1e-9) << beside;
   }
 }
@@ -86,49 +81,27 @@ TEST(SphereTips, RoundAnEdgeAlongAWall) {
   const double radius = 5e-4;
   const MeshPointer block = shared(box_mesh({.1, .1, .1}));
   Random random(10);
-  for (int i = 0; i < repeats(100); ++i) {
-    const double turn = random.uniform(0.2, 1.3);  // rad, of the wall against the edge
+  for (int i = 0; i < repeats(200); ++i) {
+    const double over = random.uniform(0.03, 0.3);  // rad, of the edge's rounding
+    const double turn = random.uniform(0.2, 1.3);   // rad, of the wall against the edge
+    const Vector3 begin(0.05 + radius * std::sin(over), 0.0, 0.05 + radius * std::cos(over) + 1e-7);
     Pose wall = Pose::Identity();
     wall.linear() = Eigen::AngleAxisd(turn, Vector3::UnitZ()).toRotationMatrix();
     const Vector3 out = wall.linear().col(0);
-    const Vector3 begin(0.0499, 0.0, 0.05 + radius);
-    wall.translation() = begin - (0.05 + radius + 1e-6) * out;
-    Toucher toucher(HapticScene::compile({object(1, shape_of(block, true, radius), translation(0, 0, 0)),
+    wall.translation() = begin - (0.05 + radius + 1e-7) * out;
+    Toucher toucher(HapticScene::compile({object(1, shape_of(block, true, radius)),
                                           object(2, shape_of(block, true, radius), wall)}),
                     radius);
     ContactJudge judge({{block}, {block, wall}}, {.tip_radius = radius});
     judge.judge({begin, toucher.step(begin).scp, false});
-    const double to_wall = random.uniform(1e-3, 3e-3);
-    const Vector3 tip = begin - Vector3(0.0, 0.0, random.uniform(5e-3, 9e-3)) - to_wall * out;
+    const double deep = random.uniform(5e-3, 9e-3);
+    const double into_wall = random.uniform(0.5e-3, 3e-3);
+    const Vector3 tip = begin - Vector3(0.0, 0.0, deep) - into_wall * out;
     const ScpState& state = toucher.step(tip);
     EXPECT_TRUE(state.converged) << i;
     EXPECT_LE(state.iterations, 40) << i;
     const Judgement judgement = judge.judge({tip, state.scp, state.touching});
     EXPECT_FALSE(judgement.pop || judgement.stick || judgement.late) << i;
-  }
-}
-
-// An ear of this cow is folded, and passes through itself: there a ball comes to an edge from behind, where
-// it would be in the solid if the mesh were clean.
-TEST(SphereTips, AreHeldByFoldedEdges) {
-  const auto path = places::shared_data() / "meshes" / "control" / "cow.obj";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  files::ReadOptions how;
-  how.fit = 0.1;
-  auto loaded = files::read_mesh(path, how);
-  ASSERT_TRUE(loaded);
-  const MeshPointer mesh = shared(std::move(loaded->mesh));
-  const double radius = 5e-4;
-  Toucher toucher(HapticScene::compile({object(1, shape_of(mesh, true, radius))}), radius);
-  const std::vector<Vector3> tips{{-0.0496903, -0.0133627, 0.00188972}, {-0.0491418, -0.0137754, 0.00106173},
-                                  {-0.0491256, -0.0139726, 0.00108671}, {-0.0490535, -0.0141591, 0.00108763},
-                                  {-0.0491511, -0.0142567, 0.00114241}, {-0.0493255, -0.014314, 0.00122159},
-                                  {-0.0494127, -0.0144075, 0.00127155}, {-0.049311, -0.0145792, 0.00125837},
-                                  {-0.0492814, -0.0147701, 0.00127728}, {-0.0493808, -0.0148724, 0.00133369},
-                                  {-0.0495634, -0.0148979, 0.00141115}};
-  for (const Vector3& tip : tips) {
-    const ScpState& state = toucher.step(tip);
-    EXPECT_GE(brute_nearest(*mesh, state.scp).distance, radius - 1e-6) << tip.transpose();
   }
 }
 
