@@ -135,10 +135,9 @@ std::optional<ImplicitWalk::Leg> ImplicitWalk::leg(const Vector3& from, const Ve
     // Beyond a crease the surface is not at the expected place.
     if (!next.curbed && next.error_after <= kExact * size_ &&
         std::fabs(formula_.value(at, time_)) <= kOnIt * size_ * here.gradient.norm()) {
-      // The normal has turned by the last step only, which was short. At the apex of a cone, where no step is
-      // short enough, it does not face the goal.
-      const Place end{at, (here.gradient + here.hessian * next.step).normalized()};
-      if (is_upright(end, goal, size_)) return Leg{end, true};
+      // The normal has turned by the last step only, which was short.
+      const Vector3 turned = here.gradient + here.hessian * next.step;
+      return Leg{{at, turned.normalized()}, true};
     }
     if (left <= 0.1 * reach) break;
   }

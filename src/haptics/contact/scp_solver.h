@@ -42,15 +42,6 @@ class ScpSolver final : public ContactSolver {
   std::uint64_t work() const { return region_.work(); }
 
  private:
-  /// Short ways at one angle to the pull that an escape tries.
-  struct OpenRing {
-    double length;  // m
-    double cosine;  // of the angle
-    int sides;
-    int steps;     // on from the end of a way
-    double least;  // m, nearer to the tip
-  };
-
   const Tolerance& tolerance() const { return region_.tolerance(); }
   ContactRegion::Frame frame() const { return {origin_, settings_.tip_radius, elapsed_}; }
   Pose pose(std::uint32_t object, double elapsed) const { return scene_->pose_in(origin_, object, elapsed); }
@@ -93,7 +84,6 @@ class ScpSolver final : public ContactSolver {
   bool escape(const Vector3& tip);
   bool escape_without_one(const Vector3& tip);
   bool escape_in_the_open(const Vector3& tip);
-  bool escape_on_ring(const Vector3& tip, const OpenRing& ring);
   bool at_edge() const;
   bool escape_over_edge(const Vector3& tip);
   bool lets_go(const Element& contact, const Vector3& tip) const;

@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kOpenWay = 2e-3;  // of the size of the smallest near object: length of that way
 constexpr int kOpenSides = 24;
-constexpr int kAsideSides = 8;
-constexpr int kStepsFromAside = 4;
 constexpr double kSamePull = 0.05;     // of its length: a change that opens no way
 constexpr double kRoundStep = 0.28;    // rad, along a rounded edge: no way over it is then too steep
 constexpr double kShorter = 0.25;      // of a way along a rounded edge that is too long
@@ -192,9 +190,8 @@ bool ScpSolver::escape_without_one(const Vector3& tip) {
   return false;
 }
 
-/// Looks for a short way that is free and leads nearer to the tip, straight or from a place beside. For
-/// places where walks along surfaces stop short and contacts say too little, as at nodes, and at the axis of
-/// a spiral stair.
+/// Looks for a short straight way that is free and leads nearer to the tip. For places where walks along
+/// surfaces stop short and contacts say too little, as at nodes, and at the axis of a spiral stair.
 bool ScpSolver::escape_in_the_open(const Vector3& tip) {
   if (contacts_.empty() || sliding_ || surface().static_friction > 0.0) return false;
   const Vector3 from = position_;
@@ -204,46 +201,25 @@ bool ScpSolver::escape_in_the_open(const Vector3& tip) {
                          (tip - shut_in_tip_).norm() <= kSamePull * pull.norm();
   if (as_before && !scene_->moves()) return false;
   const double length = std::min(kOpenWay * region_.smallest(), 0.25 * pull.norm());
-  if (length > tolerance().touching()) {
-    for (const double cosine : {0.5, 0.77, 0.27, 0.94}) {
-      const double least = std::min(0.05, 0.5 * cosine) * length;
-      if (escape_on_ring(tip, {length, cosine, kOpenSides, 0, least})) return true;
+  const Vector3 onward = pull.stableNormalized(), side = onward.unitOrthogonal(), other = onward.cross(side);
+  const auto may_look = [&] { return !spent() && !region_.overflowed(); };
+  for (const double cosine : {0.5, 0.77, 0.27, 0.94, 0.12, 0.04}) {
+    const double sine = std::sqrt(1.0 - cosine * cosine);
+    for (int i = 0; i < kOpenSides && may_look() && length > tolerance().touching(); ++i) {
+      const double turn = 2.0 * std::numbers::pi * i / kOpenSides;
+      const Vector3 way =
+          length * (cosine * onward + sine * (std::cos(turn) * side + std::sin(turn) * other));
+      if (any_swallows(held, from + way)) continue;  // one evaluation tells that
+      contacts_.clear();
+      advance(way);
+      if ((tip - position_).norm() < pull.norm() - std::min(0.05, 0.5 * cosine) * length) return true;
+      position_ = from;
     }
-    for (const double cosine : {0.0, -0.5})
-      if (escape_on_ring(tip, {length, cosine, kAsideSides, kStepsFromAside, tolerance().touching()}))
-        return true;
   }
   contacts_ = held;
-  if (!spent() && !region_.overflowed()) {
+  if (may_look()) {
     shut_in_at_ = from;
     shut_in_tip_ = tip;
-  }
-  return false;
-}
-
-/// Tries the ways of a ring around the pull, and from their ends some steps that the contacts there allow.
-/// True where that led nearer to the tip; else the SCP is where it was, and its contacts are lost.
-bool ScpSolver::escape_on_ring(const Vector3& tip, const OpenRing& ring) {
-  const Vector3 from = position_;
-  const ContactSet held = contacts_;
-  const double before = (tip - from).norm();
-  const Vector3 onward = (tip - from).stableNormalized(), side = onward.unitOrthogonal();
-  const Vector3 other = onward.cross(side);
-  const double sine = std::sqrt(1.0 - ring.cosine * ring.cosine);
-  for (int i = 0; i < ring.sides && !spent() && !region_.overflowed(); ++i) {
-    const double turn = 2.0 * std::numbers::pi * i / ring.sides;
-    const Vector3 way =
-        ring.length * (ring.cosine * onward + sine * (std::cos(turn) * side + std::sin(turn) * other));
-    if (any_swallows(held, from + way)) continue;  // one evaluation tells that
-    contacts_.clear();
-    advance(way);
-    for (int step = 0; step < ring.steps && !region_.overflowed(); ++step) {
-      bool exact = false;
-      advance(next_step(tip, exact));
-    }
-    if ((tip - position_).norm() < before - ring.least) return true;
-    position_ = from;
-    contacts_ = held;
   }
   return false;
 }
