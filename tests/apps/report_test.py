@@ -5,8 +5,8 @@ import unittest
 from icome_program import ProgramTest, line, run
 
 FIELDS = ["model", "triangles", "build_seconds", "ticks", "rate_hz", "tick_us", "haptic_load", "overruns",
-          "lost_ticks", "max_force_n", "touch_fraction", "pops", "sticks", "silent", "pulls", "unjudged", "late", "judge_unfinished",
-          "texture", "effects", "capped", "peak_memory_bytes"]
+          "lost_ticks", "max_force_n", "touch_fraction", "pops", "sticks", "silent", "pulls", "unjudged", "late",
+          "judge_unfinished", "texture", "effects", "capped", "peak_memory_bytes"]
 CUBE = "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1)) + \
     "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n"
 

@@ -282,11 +282,10 @@ TEST(ContactJudge, LetsAnScpBeLateForFiveTicks) {
   for (const JudgedObject& box : boxes()) {
     ContactJudge judge = judge_of({box});
     const Vector3 tip(0.02, 0.0, 0.049);
-    for (int i = 0; i < 10; ++i) {
+    for (int i = 0; i <= 6; ++i) {
       const Judgement judgement = judge.judge({tip, {-0.03 + 2e-3 * i, 0.0, 0.05}, true});
       EXPECT_EQ(judgement.late, i >= 1 && i <= 5) << i;
       EXPECT_EQ(judgement.stick, i < 1 || i == 6) << i;
-      if (i >= 6) break;
     }
     EXPECT_EQ(judge.late(), 5U);
   }
