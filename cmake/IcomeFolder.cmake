@@ -33,12 +33,14 @@ function(icome_sources target)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
 endfunction()
 
-# icome_folder(NAME [USES folder...] [LINKS target...] [EXCEPT folder...])
+# icome_folder(NAME [USES folder...] [LINKS target...] [EXCEPT folder...] [LEAVES_COMPUTING])
 # USES are other folders of src/ (tools/check_layers.py holds them against tools/layers.txt);
 # LINKS are third-party targets, private so that their headers stay behind this folder's sources;
 # EXCEPT are folders in this one that are targets of their own.
+# LEAVES_COMPUTING: the folder leaves computing to others, so that builds with sanitizers, which run each test once, do
+# not optimise it: clang then takes half as long to compile it.
 function(icome_folder name)
-  cmake_parse_arguments(ARG "" "" "USES;LINKS;EXCEPT" ${ARGN})
+  cmake_parse_arguments(ARG "LEAVES_COMPUTING" "" "USES;LINKS;EXCEPT" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   foreach(folder IN LISTS ARG_EXCEPT)
     file(GLOB_RECURSE others ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
@@ -56,6 +58,9 @@ function(icome_folder name)
   endif()
   add_library(icome_${name} STATIC)
   icome_sources(icome_${name} ${sources})
+  if(ICOME_SANITIZE AND ARG_LEAVES_COMPUTING)
+    target_compile_options(icome_${name} PRIVATE -O0)
+  endif()
   target_include_directories(icome_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(icome_${name} PUBLIC ${ARG_USES} PRIVATE ${ARG_LINKS})
 endfunction()
