@@ -1,4 +1,5 @@
 """icome listen at a microphone: a sink of PulseAudio that plays to nobody is one."""
+import array
 import json
 import os
 import pathlib
@@ -10,7 +11,7 @@ import time
 import unittest
 
 PROGRAM = os.environ["ICOME_PROGRAM"]
-NEEDED = ("pulseaudio", "pactl", "paplay", "espeak-ng")
+NEEDED = ("pulseaudio", "pactl", "paplay", "parec", "espeak-ng")
 PATIENCE = 120  # s
 
 
@@ -84,6 +85,41 @@ class MicrophoneTest(unittest.TestCase):
         listening.send_signal(signal.SIGINT)
         self.assertEqual(listening.wait(PATIENCE), 0)
         self.assertTrue((self.at / "heard.icome").exists())
+
+    def test_it_is_called_by_a_word_and_does_not_hear_its_own_answers(self):
+        # The sink that it speaks to is the one that it listens to.
+        out, errors = self.at / "out.jsonl", self.at / "errors"
+        with out.open("w") as answers, errors.open("w") as told:
+            listening = subprocess.Popen([PROGRAM, "listen", "--json", "--apply", "--wake-word", "computer", "--speak"],
+                                         stdout=answers, stderr=told, env=self.environment, cwd=self.at)
+        self.addCleanup(listening.kill)
+
+        def heard():
+            return [json.loads(line) for line in out.read_text().splitlines(keepends=True) if line.endswith("\n")]
+
+        wait_for("listening", lambda: "listening" in errors.read_text())
+        sound = self.at / "all.raw"
+        with sound.open("wb") as kept:
+            recording = subprocess.Popen(["parec", "--device=ears.monitor", "--rate=16000", "--channels=1",
+                                          "--format=s16le"], stdout=kept, env=self.environment)
+        self.addCleanup(recording.kill)
+        self.say("create a small red sphere")
+        wait_for("what is not meant", lambda: heard())
+        self.assertFalse(heard()[0]["accepted"])
+        self.assertIn("not said to me", heard()[0]["said"])
+        self.say("computer, create a small red sphere")
+        wait_for("the sphere", lambda: len(heard()) > 1)
+        self.assertTrue(heard()[1]["accepted"], heard()[1])
+        self.assertEqual(heard()[1]["objects"], ["sphere"])
+        before = sound.stat().st_size
+        time.sleep(4)  # in which it answers "Small red sphere."
+        recording.terminate()
+        recording.wait(PATIENCE)
+        spoken = array.array("h", sound.read_bytes()[before // 2 * 2:][: 2 * 16000 * 4])
+        self.assertGreater(max(map(abs, spoken)), 1000, "nothing was spoken")
+        self.assertEqual(len(heard()), 2, heard()[2:])
+        listening.send_signal(signal.SIGINT)
+        self.assertEqual(listening.wait(PATIENCE), 0)
 
 
 if __name__ == "__main__":

@@ -170,9 +170,6 @@ class StudyRunTest(ProgramTest):
         head = self.study("head", template="head-tracking")
         for words in ("head-tracking", "--head", "--pointer-only"):
             self.fails("study", "run", head, code=1, saying=words)
-        voice = self.study("voice", lambda text: text.replace('needs = ["pointer"', 'needs = ["speech", "pointer"'),
-                           template="menu")
-        self.fails("study", "run", voice, code=1, saying="speech")
         bare = self.study("bare", lambda text: text.replace('target = "target"', 'target = "goal"'))
         self.fails("study", "run", bare, "--simulate", 1, code=1, saying="'goal'")
         (self.folder / "scenes" / "pointing-room.wrl").unlink()

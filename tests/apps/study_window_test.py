@@ -1,10 +1,12 @@
 """`icome study run` with a person: pages, questions and trials by keys and mouse, to the end, and what goes wrong."""
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
 import unittest
+import wave
 
 from desktop_program import DesktopTest, wait_for
 from icome_program import PROGRAM, ProgramTest
@@ -167,6 +169,24 @@ class StudyWindowTest(DesktopTest):
         answers = "\n".join(self.rows("events"))
         self.assertRegex(answers, r"you\.age\t33\b")
         self.assertRegex(answers, r"you\.hand\tright\b")
+
+    @unittest.skipUnless(shutil.which("espeak-ng"), "espeak-ng, which speaks here, is not installed")
+    def test_a_study_may_have_things_chosen_by_voice(self):
+        self.study.write_text(STUDY.replace('needs = ["pointer"]', 'needs = ["pointer", "speech"]'))
+        said, all_of_it = self.folder / "said.wav", self.folder / "all.wav"
+        subprocess.run(["espeak-ng", "-v", "en-us", "-w", said, "select the ball"], check=True)
+        with wave.open(str(said)) as one, wave.open(str(all_of_it), "wb") as many:
+            many.setparams(one.getparams())
+            sentence = one.readframes(one.getnframes())
+            many.writeframes(30 * (bytes(2 * 2 * one.getframerate()) + sentence))  # after two seconds each time
+        desktop = self.run_study("--microphone", all_of_it)
+        self.answer(desktop)
+        self.key_until(desktop, "events", 6, "Return")
+        wait_for("two trials", lambda: len(self.rows("beh")) >= 2)
+        spoken = [row.split("\t") for row in self.rows("events") if "\tsaid\t" in row]
+        self.assertIn(["select the ball", "ball"], [row[4:6] for row in spoken])
+        desktop.process.send_signal(signal.SIGTERM)
+        self.assertEqual(desktop.wait_end(), 3, desktop.printed())
 
     def test_the_start_is_heard(self):
         desktop = self.run_study()

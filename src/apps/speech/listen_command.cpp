@@ -15,7 +15,9 @@
 #include "speech/hearing/likely_meant.h"
 #include "speech/hearing/recording.h"
 #include "speech/hearing/voice_activity.h"
+#include "speech/hearing/wake_word.h"
 #include "speech/listening/ear.h"
+#include "speech/speaking/speaker.h"
 
 namespace icome::apps {
 namespace {
@@ -34,7 +36,9 @@ constexpr const char* kMicrophoneName = "microphone";
 /// Understands utterances, one after the other.
 class Listener {
  public:
-  Listener(const ListenOptions& options, Talk& talk) : options_(options), talk_(talk) {
+  Listener(const ListenOptions& options, std::optional<speech::WakeWord> wake_word, Talk& talk)
+      : options_(options), talk_(talk), wake_word_(std::move(wake_word)) {
+    if (options.speak) speaker_.emplace();
     if (options.least_score) limits_.least_score = *options.least_score;
   }
 
@@ -45,9 +49,8 @@ class Listener {
     for (const speech::Utterance& utterance : utterances) {
       if (interrupted()) return base::fail("interrupted");
       const Stopwatch watch;
-      if (const auto* const grammar = new_grammar()) {
-        const auto silent =
-            recogniser.set_grammar(*grammar, {speech::Dialogue::kSentence, speech::Dialogue::kUsualSentence});
+      if (const auto grammar = new_grammar()) {
+        const auto silent = recogniser.set_grammar(*grammar, rules());
         if (!silent) return tl::unexpected(silent.error());
         tell_silent(*silent);
       }
@@ -66,16 +69,16 @@ class Listener {
   Result<void> hear_microphone(std::unique_ptr<speech::Recogniser> recogniser) {
     if (const auto there = speech::open_microphone(options_.microphone); !there)
       return base::fail(there.error().message + "; give it recordings instead");
-    const double begin = speech::clock_of_ears();
+    const double begin = begun_ = speech::clock_of_ears();
     speech::Ear ear([this] { return speech::open_microphone(options_.microphone); },
                     [&]() -> Result<std::unique_ptr<speech::Recogniser>> { return std::move(recogniser); },
                     {.hang = options_.hang});
     std::string problem;
     bool listens = false;
     while (!interrupted()) {
-      if (const auto* const grammar = new_grammar())
-        ear.expect(*grammar, std::string(speech::Dialogue::kSentence),
-                   std::string(speech::Dialogue::kUsualSentence));
+      if (auto grammar = new_grammar())
+        ear.expect(std::move(*grammar), std::string(rules().sentence), std::string(rules().usual));
+      ear.mute(is_speaking());
       for (const speech::HeardUtterance& it : ear.take()) {
         const Stopwatch watch;
         const HeardAt place{kMicrophoneName, it.begin - begin, it.end - begin, 0.0};
@@ -100,19 +103,42 @@ class Listener {
     // Without --apply each is understood by itself.
     std::unique_ptr<Talk> own = options_.apply ? nullptr : talk_.beginning();
     Talk& talk = own ? *own : talk_;
-    const auto [answer, nearest] =
-        speech::understand_utterance(talk.dialogue(), heard, place.begin, place.end, limits_);
+    const auto [answer, nearest, is_addressed] = speech::understand_utterance(
+        talk.dialogue(), heard, place.begin, place.end, limits_, wake_word_ ? &*wake_word_ : nullptr);
+    if (speaker_ && is_addressed) speaker_->say(answer.reply);
     const Value score = nearest ? Value(nearest->score) : Value();
     return tell_answer(answer, score, place, talk.world(), 1000.0 * (before + watch.seconds()));
   }
 
-  /// The grammar of this moment, where it has changed; null: it has not.
-  const speech::Grammar* new_grammar() {
-    const speech::Grammar& grammar = talk_.dialogue().vocabulary().grammar;
-    std::string jsgf = grammar.jsgf(speech::Dialogue::kSentence, "icome");
-    if (jsgf == known_) return nullptr;
+  speech::HeardRules rules() const {
+    if (wake_word_) return speech::WakeWord::kRules;
+    return {speech::Dialogue::kSentence, speech::Dialogue::kUsualSentence};
+  }
+
+  /// The grammar of this moment, where it has changed; none: it has not.
+  std::optional<speech::Grammar> new_grammar() {
+    speech::Grammar grammar = talk_.dialogue().vocabulary().grammar;
+    if (wake_word_)
+      grammar =
+          wake_word_->with_word(grammar, {speech::Dialogue::kSentence, speech::Dialogue::kUsualSentence});
+    std::string jsgf = grammar.jsgf(rules().sentence, "icome");
+    if (jsgf == known_) return std::nullopt;
     known_ = std::move(jsgf);
-    return &grammar;
+    return grammar;
+  }
+
+  /// Does it speak, or does what it spoke still come back from the room?
+  bool is_speaking() {
+    constexpr double kEcho = 0.4;  // s
+    if (!speaker_) return false;
+    const double time = speech::clock_of_ears();
+    if (speaker_->is_speaking()) {
+      spoke_at_ = time;
+      if (wake_word_ && talk_.dialogue().asks()) wake_word_->stay_awake(time - begun_);
+    }
+    if (const std::string problem = speaker_->problem(); std::exchange(unheard_, problem) != problem)
+      tell(problem);
+    return time < spoke_at_ + kEcho;
   }
 
   void tell_silent(const std::vector<std::string>& silent) {
@@ -143,7 +169,12 @@ class Listener {
   const ListenOptions& options_;
   Talk& talk_;
   speech::HearingLimits limits_;
-  std::string known_;  // the grammar that the recogniser has
+  std::optional<speech::WakeWord> wake_word_;
+  std::optional<speech::Speaker> speaker_;
+  std::string unheard_;     // why the speaker is not heard, as it was told
+  double spoke_at_ = -1e9;  // s
+  double begun_ = 0.0;      // s, from which the times of the microphone count
+  std::string known_;       // the grammar that the recogniser has
   std::vector<std::string> silent_;
   double time_ = 0.0;  // s, of the beginning of the recording
 };
@@ -159,6 +190,12 @@ Result<void> listen(const ListenOptions& options, StatusLine& status) {
   const std::filesystem::path out = destination(options);
   if (!out.empty())
     if (const auto able = files::check_can_write(out); !able) return able;
+  std::optional<speech::WakeWord> wake_word;
+  if (!options.wake_word.empty()) {
+    auto word = speech::WakeWord::of(options.wake_word);
+    if (!word) return base::fail("--wake-word: " + word.error().message);
+    wake_word = std::move(*word);
+  }
   Result<HandPath> hand = HandPath{};
   if (!options.pointer.empty()) hand = hand_from_file(options.pointer);
   if (!hand) return tl::unexpected(hand.error());
@@ -171,7 +208,7 @@ Result<void> listen(const ListenOptions& options, StatusLine& status) {
   auto recogniser = speech::make_sphinx_recogniser();
   if (!recogniser) return tl::unexpected(recogniser.error());
   status.clear();
-  Listener listener(options, **talk);
+  Listener listener(options, std::move(wake_word), **talk);
   if (options.recordings.empty())
     if (const auto heard = listener.hear_microphone(std::move(*recogniser)); !heard) return heard;
   for (const std::filesystem::path& file : options.recordings)

@@ -45,6 +45,8 @@ constexpr const char* kListenNotes =
     "  icome listen a.wav b.wav --apply --out balls.wrl\n"
     "                                              do it, one after the other, and save the design\n"
     "  icome listen --design house.wrl --apply     the microphone, until Ctrl-C\n"
+    "  icome listen --apply --wake-word computer --speak\n"
+    "                                              it is called by \"computer\", and answers aloud\n"
     "  icome listen move.wav --design house.wrl --pointer hand.csv --apply --out house.wrl\n"
     "\n"
     "Recordings are WAV, FLAC or OGG at any rate, or .raw (16 kHz, 16 bits, one channel). They are cut "
@@ -105,6 +107,12 @@ void add_speech(CLI::App& app, SpeechOptions& options) {
       ->needs(apply);
   listen.add_option("--microphone", options.listen.microphone, "Another microphone than the usual one")
       ->type_name("NAME")
+      ->excludes(recordings);
+  listen
+      .add_option("--wake-word", options.listen.wake_word,
+                  "Only what begins with this word is meant, or follows it alone within 8 s")
+      ->type_name("WORD");
+  listen.add_flag("--speak", options.listen.speak, "Speak the replies, and hear nothing meanwhile")
       ->excludes(recordings);
   listen.add_flag("--force", options.listen.force, "Replace a file even if some of it would be lost");
   listen.add_option("--hang", options.listen.hang, "Silence that ends an utterance (default 0.4)")

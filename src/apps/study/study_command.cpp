@@ -116,6 +116,10 @@ CLI::App& add_session_command(CLI::App& study, StudyOptions& options, const char
   command.add_flag("--pointer-only", options.pointer_alone,
                    "Leave out what needs more than the program has; such data are kept apart");
   add_device_options(command, options.devices);
+  command
+      .add_option("--microphone", options.microphone,
+                  "The microphone of trials that need speech, by name, or a recording")
+      ->type_name("NAME");
   command.add_flag("--window", options.in_window, "Not over the whole screen");
   return command;
 }
@@ -130,8 +134,8 @@ void add_run_options(CLI::App& study, StudyOptions& options) {
                                           "Let so many simulated people take part, until all are through")
                                ->type_name("N")
                                ->check(CLI::Range(1, 10000));
-  for (const char* const of_a_person :
-       {"--participant", "--with", "--language", "--window", "--device", "--head", "--navigation"})
+  for (const char* const of_a_person : {"--participant", "--with", "--language", "--window", "--device",
+                                        "--head", "--navigation", "--microphone"})
     simulate.excludes(run.get_option(of_a_person));
   run.add_flag("--json", options.json, "Of --simulate: print what was done as JSON")->needs(&simulate);
 }

@@ -21,6 +21,7 @@ struct StudyOptions {
   std::string language;                    // empty: the study's first
   std::vector<std::string> with;           // "age=31": control variables
   DeviceChoice devices;
+  std::string microphone;    // or a recording; empty: the usual one
   std::size_t simulate = 0;  // people; 0: a real one
   bool pointer_alone = false;
   bool in_window = false;  // not over the whole screen

@@ -330,6 +330,7 @@ int run_person(int argc, char** argv, const StudyOptions& options, const OpenedS
   const std::string devices = names_of(*settings);
   ui::StudyWindowOptions window;
   window.full_screen = !options.in_window;
+  window.microphone = speech::source_of(options.microphone);
   window.interrupted = [] { return interrupted(); };
   std::string id;
   std::optional<study::DataFolder> data;  // opened once there is a display, without which nothing begins

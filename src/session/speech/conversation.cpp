@@ -13,6 +13,8 @@ namespace {
 using base::Result;
 using speech::Dialogue;
 
+constexpr double kEcho = 0.4;  // s, in which what was spoken may still come back from the room
+constexpr std::uint32_t kTalkButton = 1U << 1U;
 constexpr const char* kBusy = "something else in the window must be finished first";
 
 /// The world of a session, each sentence an action of its history.
@@ -75,13 +77,53 @@ struct Conversation::Parts {
     if (!spoken.answer.operations.empty() && !spoken.answer.objects.empty())
       session.select(spoken.answer.objects);
     is_new = true;
+    if (ways.speaks && !spoken.answer.reply.empty()) speak(spoken.answer.reply);
     listener(spoken);
   }
 
+  void speak(const std::string& reply) {
+    if (!speaker) speaker = std::make_unique<speech::Speaker>(hooks.loudspeaker);
+    speaker->say(reply);
+    follow_speaker();
+  }
+
+  /// Hears nothing while it speaks; a question of its own is answered without the wake word.
+  void follow_speaker() {
+    const double time = speech::clock_of_ears();
+    if (speaker && speaker->is_speaking()) {
+      spoke_at = time;
+      if (ways.wake_word && talk().asks()) ways.wake_word->stay_awake(time);
+    }
+    if (ear) ear->mute(!is_held && time < spoke_at + kEcho);
+  }
+
+  /// The word that begins what is meant now; null: all is meant.
+  speech::WakeWord* wake_word() {
+    return ways.wake_word && ways.attention == speech::Attention::Always ? &*ways.wake_word : nullptr;
+  }
+
+  /// Is the button by which a hand talks down?
+  bool is_button_down() const {
+    const SessionHands& hands = session.hands();
+    if (session.techniques().current()) return false;
+    for (std::size_t i = 0; i < hands.pointers(); ++i)
+      if (hands.mouse() != i && (hands.pointer(i).buttons & kTalkButton) != 0) return true;
+    return false;
+  }
+
+  void follow_keys() {
+    const bool held = is_key_held || (ways.attention == speech::Attention::WhileHeld && is_button_down());
+    if (std::exchange(is_held, held) == held) return;
+    ear->hold(held);
+    if (!held) return;
+    if (speaker) speaker->stop();
+    spoke_at = -1e9;
+  }
+
   void understand(const speech::HeardUtterance& utterance) {
-    auto [done, heard] =
-        speech::understand_utterance(talk(), utterance.sentences, utterance.begin, utterance.end);
-    answer({std::move(done), true, heard ? heard->score : 0.0, utterance.seconds});
+    auto [done, heard, is_addressed] = speech::understand_utterance(
+        talk(), utterance.sentences, utterance.begin, utterance.end, {}, wake_word());
+    if (is_addressed) answer({std::move(done), true, heard ? heard->score : 0.0, utterance.seconds});
   }
 
   /// Tells the ear what can be said now, where that may have changed; seldom, as it learns it anew each time.
@@ -91,11 +133,16 @@ struct Conversation::Parts {
     if (!is_new || time < told_at + kSeldom) return;
     is_new = false;
     told_at = time;
-    const speech::Grammar& grammar = talk().vocabulary().grammar;
-    std::string text = grammar.jsgf(Dialogue::kSentence, "icome");
+    speech::HeardRules rules{Dialogue::kSentence, Dialogue::kUsualSentence};
+    speech::Grammar grammar = talk().vocabulary().grammar;
+    if (const speech::WakeWord* const word = wake_word()) {
+      grammar = word->with_word(grammar, rules);
+      rules = speech::WakeWord::kRules;
+    }
+    std::string text = grammar.jsgf(rules.sentence, "icome");
     if (text == told) return;
     told = std::move(text);
-    ear->expect(grammar, std::string(Dialogue::kSentence), std::string(Dialogue::kUsualSentence));
+    ear->expect(std::move(grammar), std::string(rules.sentence), std::string(rules.usual));
   }
 
   Session& session;
@@ -104,7 +151,12 @@ struct Conversation::Parts {
   SpokenStage stage;
   std::pair<speech::OwnWords, std::string> words;
   std::unique_ptr<Dialogue> dialogue;  // null before the first sentence
-  std::unique_ptr<speech::Ear> ear;    // null: it does not listen
+  ConversationWays ways;
+  std::unique_ptr<speech::Ear> ear;          // null: it does not listen
+  std::unique_ptr<speech::Speaker> speaker;  // null: it has not spoken
+  double spoke_at = -1e9;                    // s, when it was last heard to speak
+  bool is_key_held = false;
+  bool is_held = false;  // a key or a button
   std::function<void(const Spoken&)> listener = [](const Spoken&) {};
   std::vector<world::ObjectId> candidates;
   bool is_another = false;  // is there another design than the one that was spoken of?
@@ -139,10 +191,23 @@ void Conversation::listen(speech::OpenSource source) {
   parts_->told.clear();
   parts_->told_at = -1e9;
   parts_->is_new = true;
-  if (source)
-    parts_->ear =
-        std::make_unique<speech::Ear>(std::move(source), [] { return speech::make_sphinx_recogniser(); });
+  parts_->is_held = false;
+  if (!source) return;
+  parts_->ear =
+      std::make_unique<speech::Ear>(std::move(source), [] { return speech::make_sphinx_recogniser(); });
+  parts_->ear->attend(parts_->ways.attention);
 }
+
+void Conversation::set_ways(ConversationWays ways) {
+  parts_->ways = std::move(ways);
+  parts_->is_new = true;
+  if (parts_->ear) parts_->ear->attend(parts_->ways.attention);
+  if (!parts_->ways.speaks && parts_->speaker) parts_->speaker->stop();
+}
+
+const ConversationWays& Conversation::ways() const { return parts_->ways; }
+
+void Conversation::hold(bool is_held) { parts_->is_key_held = is_held; }
 
 bool Conversation::listens() const { return parts_->ear != nullptr; }
 
@@ -153,6 +218,8 @@ void Conversation::tick() {
   parts_->stage.keep_hand(speech::clock_of_ears());
   const bool has_menu = parts_->session.menu().use() != nullptr;
   if (std::exchange(parts_->had_menu, has_menu) != has_menu) parts_->is_new = true;
+  parts_->follow_keys();
+  parts_->follow_speaker();
   parts_->follow();
   for (const speech::HeardUtterance& utterance : parts_->ear->take()) parts_->understand(utterance);
 }
@@ -163,6 +230,9 @@ void Conversation::on_answer(std::function<void(const Spoken&)> listener) {
 
 const std::vector<world::ObjectId>& Conversation::candidates() const { return parts_->candidates; }
 
-const std::string& Conversation::problem() const { return parts_->words.second; }
+std::string Conversation::problem() const {
+  if (!parts_->words.second.empty() || !parts_->speaker) return parts_->words.second;
+  return parts_->speaker->problem();
+}
 
 }  // namespace icome::session

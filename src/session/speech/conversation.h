@@ -8,7 +8,9 @@
 #include "interaction/elements/element.h"
 #include "session/session.h"
 #include "speech/dialogue/dialogue.h"
+#include "speech/hearing/wake_word.h"
 #include "speech/listening/ear.h"
+#include "speech/speaking/speaker.h"
 
 namespace icome::session {
 
@@ -31,6 +33,15 @@ struct ConversationHooks {
   /// The haptic menu that open_menu opens; none: there is no menu.
   std::function<base::Result<interaction::Element>()> menu = nullptr;
   std::function<void()> open_menu = [] {};
+  speech::OpenLoudspeaker loudspeaker = speech::open_loudspeaker;
+};
+
+/// The ways in which a conversation listens, and answers.
+struct ConversationWays {
+  speech::Attention attention = speech::Attention::Always;
+  /// That begins what is meant, where it always listens; none: all that is said is meant.
+  std::optional<speech::WakeWord> wake_word = {};
+  bool speaks = false;  // the replies; it hears nothing meanwhile
 };
 
 /// Talks with a person about the design of a session (thesis 7.4, 8.2): typed sentences, and spoken ones
@@ -48,6 +59,13 @@ class Conversation {
   /// Listens from now on to this source; without one, not any more.
   void listen(speech::OpenSource source);
   bool listens() const;
+  void set_ways(ConversationWays ways);
+  const ConversationWays& ways() const;
+  /// Is a key held down by which one talks? A held one ends what is being spoken. The second button of a hand
+  /// is such a key, too, but for the techniques, which travel with it.
+  void hold(bool is_held);
+  /// Does it listen only while a key is held down?
+  bool listens_while_held() const { return listens() && ways().attention == speech::Attention::WhileHeld; }
   speech::EarState ear() const;
   /// While it listens: understands what was heard, and keeps where the hand is. Call it once for each update
   /// of the session.
@@ -56,8 +74,8 @@ class Conversation {
   void on_answer(std::function<void(const Spoken&)> listener);
   /// The objects of the question "Which one?" that is open, in the order of their numbers.
   const std::vector<world::ObjectId>& candidates() const;
-  /// Why words of one's own are not kept; empty: they are.
-  const std::string& problem() const;
+  /// Why words of one's own are not kept, or replies not heard; empty: they are.
+  std::string problem() const;
 
  private:
   struct Parts;

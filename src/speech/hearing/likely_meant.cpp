@@ -1,5 +1,7 @@
 #include "speech/hearing/likely_meant.h"
 
+#include <utility>
+
 namespace icome::speech {
 
 const Heard* likely_meant(const std::vector<Heard>& heard, Dialogue& dialogue, const HearingLimits& limits) {
@@ -16,8 +18,34 @@ const Heard* likely_meant(const std::vector<Heard>& heard, Dialogue& dialogue, c
   return best;
 }
 
-UnderstoodUtterance understand_utterance(Dialogue& dialogue, const std::vector<Heard>& heard, double begin,
-                                         double end, const HearingLimits& limits) {
+namespace {
+
+/// What comes of an utterance by the wake word alone; none: it is a sentence for the dialogue, which is left
+/// in `heard`.
+std::optional<UnderstoodUtterance> answer_of(WakeWord& wake_word, std::vector<Heard>& heard, double begin,
+                                             double end) {
+  UnderstoodUtterance understood;
+  if (!heard.empty()) understood.heard = heard.front();
+  if (understood.heard) understood.answer.heard = understood.heard->sentence();
+  WakeWord::Meant meant = wake_word.meant(std::move(heard), begin, end);
+  heard = std::move(meant.sentences);
+  if (meant.is_meant && !meant.is_called) return std::nullopt;
+  understood.is_addressed = meant.is_meant;
+  if (meant.is_called) {
+    understood.answer.state = Answer::State::Asked;
+    understood.answer.reply = "Yes?";
+  } else {
+    understood.answer.reply = "That was not said to me: begin with \"" + wake_word.text() + "\".";
+  }
+  return understood;
+}
+
+}  // namespace
+
+UnderstoodUtterance understand_utterance(Dialogue& dialogue, std::vector<Heard> heard, double begin,
+                                         double end, const HearingLimits& limits, WakeWord* wake_word) {
+  if (wake_word != nullptr)
+    if (auto answer = answer_of(*wake_word, heard, begin, end)) return std::move(*answer);
   dialogue.vocabulary();  // brings up to date what can be said
   UnderstoodUtterance understood;
   if (const Heard* const meant = likely_meant(heard, dialogue, limits)) {
@@ -25,6 +53,7 @@ UnderstoodUtterance understand_utterance(Dialogue& dialogue, const std::vector<H
     for (const HeardWord& word : meant->words) times.words.push_back(begin + word.begin);
     understood.answer = dialogue.hear(meant->sentence(), times);
     understood.heard = *meant;
+    if (wake_word != nullptr && dialogue.asks()) wake_word->stay_awake(end);
     return understood;
   }
   if (!heard.empty()) understood.heard = heard.front();

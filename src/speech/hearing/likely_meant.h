@@ -4,6 +4,7 @@
 
 #include "speech/dialogue/dialogue.h"
 #include "speech/hearing/recogniser.h"
+#include "speech/hearing/wake_word.h"
 
 namespace icome::speech {
 
@@ -27,12 +28,14 @@ const Heard* likely_meant(const std::vector<Heard>& heard, Dialogue& dialogue,
 struct UnderstoodUtterance {
   Answer answer = {};
   std::optional<Heard> heard =
-      {};  // also where it was refused as too unlikely; none: nothing like a sentence
+      {};                    // also where it was refused as too unlikely; none: nothing like a sentence
+  bool is_addressed = true;  // false: people talk with each other; the answer says by which word to begin
 };
 
 /// Does what was most likely meant by an utterance. Its words have their times from `begin`; it ended at
-/// `end`, s, on the clock of the stage's hand.
-UnderstoodUtterance understand_utterance(Dialogue& dialogue, const std::vector<Heard>& heard, double begin,
-                                         double end, const HearingLimits& limits = {});
+/// `end`, s, on the clock of the stage's hand. With a wake word only what that is said before is meant.
+UnderstoodUtterance understand_utterance(Dialogue& dialogue, std::vector<Heard> heard, double begin,
+                                         double end, const HearingLimits& limits = {},
+                                         WakeWord* wake_word = nullptr);
 
 }  // namespace icome::speech

@@ -1,11 +1,11 @@
-// The only source that asks espeak-ng for the sounds of letters.
 #include "speech/hearing/word_sounds.h"
 
 #include <espeak-ng/speak_lib.h>
 
 #include <array>
-#include <mutex>
 #include <utility>
+
+#include "speech/speaking/espeak.h"
 
 namespace icome::speech {
 namespace {
@@ -91,13 +91,8 @@ std::string sounds_from_ipa(std::string_view ipa) {
 }
 
 std::string sounds_of_word(std::string_view word) {
-  // The library has one state for all.
-  static std::mutex mutex;
-  const std::scoped_lock lock(mutex);
-  static const bool kIsThere =
-      espeak_Initialize(AUDIO_OUTPUT_RETRIEVAL, 0, nullptr, espeakINITIALIZE_DONT_EXIT) > 0 &&
-      espeak_SetVoiceByName("en-us") == EE_OK;
-  if (!kIsThere) return {};
+  const Espeak library;
+  if (!library.is_there()) return {};
   const std::string text(word);
   const void* left = text.c_str();
   std::string ipa;

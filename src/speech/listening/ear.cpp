@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "speech/hearing/held_speech.h"
+
 namespace icome::speech {
 namespace {
 
@@ -32,6 +34,26 @@ template <typename Change>
 void Ear::change(const Change& change) {
   const std::lock_guard lock(mutex_);
   change(state_);
+}
+
+void Ear::attend(Attention attention) {
+  const std::lock_guard lock(mutex_);
+  wishes_.attention = attention;
+}
+
+void Ear::hold(bool is_held) {
+  const std::lock_guard lock(mutex_);
+  wishes_.is_held = is_held;
+}
+
+void Ear::mute(bool muted) {
+  const std::lock_guard lock(mutex_);
+  wishes_.is_muted = muted;
+}
+
+Ear::Wishes Ear::wishes() const {
+  const std::lock_guard lock(mutex_);
+  return wishes_;
 }
 
 void Ear::expect(Grammar grammar, std::string sentence, std::string usual) {
@@ -80,32 +102,69 @@ void Ear::run(const std::stop_token& stop) {
   }
 }
 
-void Ear::listen(SoundSource& source, Recogniser& recogniser, const std::stop_token& stop) {
-  VoiceActivity activity(voice_);
+/// What was heard of a source since it was opened, or since the ear was muted.
+struct Ear::Hearing {
+  explicit Hearing(const VoiceSettings& voice) : activity(voice), held(voice) {}
+
+  VoiceActivity activity;
+  HeldSpeech held;
   std::size_t samples = 0;
-  double clock =
-      std::numeric_limits<double>::infinity();  // s, of the first sample: samples come late, not early
+  /// s, of the first sample: samples come late, not early.
+  double clock = std::numeric_limits<double>::infinity();
+};
+
+void Ear::listen(SoundSource& source, Recogniser& recogniser, const std::stop_token& stop) {
+  VoiceSettings voice = voice_;
+  std::optional<Hearing> hearing;  // none: muted
   while (!stop.stop_requested()) {
     follow(recogniser);
-    const auto came = source.read();
-    if (!came)
-      return change([&](EarState& state) {
-        state.doing = EarState::Doing::Lost;
-        state.problem = came.error().message;
-      });
-    samples += came->size();
-    clock = std::min(clock, clock_of_ears() - double(samples) / kSampleRate);
-    auto utterances = activity.hear(*came);
-    change([&](EarState& state) {
-      state.doing = !utterances.empty()      ? EarState::Doing::Understanding
-                    : activity.is_speaking() ? EarState::Doing::Hearing
-                                             : EarState::Doing::Listening;
-      state.level = activity.level();
-      state.noise = activity.noise_level();
-    });
-    for (Utterance& utterance : utterances) understand(recogniser, std::move(utterance), clock);
+    const auto came = read(source);
+    if (!came) return;
+    const Wishes wished = wishes();
+    if (wished.is_muted) {
+      if (hearing) voice.first_noise = hearing->activity.noise_level();
+      hearing.reset();
+      change([](EarState& state) { state.doing = EarState::Doing::Muted; });
+      pause(kStep, stop);
+      continue;
+    }
+    if (!hearing) hearing.emplace(voice);
+    const std::vector<Utterance> utterances = hear(*hearing, *came, wished);
+    for (const Utterance& utterance : utterances) understand(recogniser, utterance, hearing->clock);
     if (utterances.empty()) pause(kStep, stop);
   }
+}
+
+/// The samples that came; none where the source is lost.
+std::optional<std::vector<std::int16_t>> Ear::read(SoundSource& source) {
+  auto came = source.read();
+  if (came) return std::move(*came);
+  change([&](EarState& state) {
+    state.doing = EarState::Doing::Lost;
+    state.problem = came.error().message;
+  });
+  return std::nullopt;
+}
+
+/// The utterances that end with these samples.
+std::vector<Utterance> Ear::hear(Hearing& hearing, Sound samples, const Wishes& wishes) {
+  hearing.samples += samples.size();
+  hearing.clock = std::min(hearing.clock, clock_of_ears() - double(hearing.samples) / kSampleRate);
+  std::vector<Utterance> utterances = hearing.activity.hear(samples);
+  bool is_hearing = hearing.activity.is_speaking();
+  if (auto held = hearing.held.hear(samples, wishes.is_held); wishes.attention == Attention::WhileHeld) {
+    utterances.clear();
+    if (held) utterances.push_back(std::move(*held));
+    is_hearing = hearing.held.is_taking();
+  }
+  change([&](EarState& state) {
+    state.doing = !utterances.empty() ? EarState::Doing::Understanding
+                  : is_hearing        ? EarState::Doing::Hearing
+                                      : EarState::Doing::Listening;
+    state.level = hearing.activity.level();
+    state.noise = hearing.activity.noise_level();
+  });
+  return utterances;
 }
 
 void Ear::follow(Recogniser& recogniser) {
@@ -123,7 +182,7 @@ void Ear::follow(Recogniser& recogniser) {
   });
 }
 
-void Ear::understand(Recogniser& recogniser, Utterance utterance, double clock) {
+void Ear::understand(Recogniser& recogniser, const Utterance& utterance, double clock) {
   const double begun = clock_of_ears();
   auto sentences = recogniser.recognise(utterance.samples);
   if (!sentences) return change([&](EarState& state) { state.problem = sentences.error().message; });

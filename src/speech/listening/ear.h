@@ -26,12 +26,18 @@ struct HeardUtterance {
 
 /// The state of an ear.
 struct EarState {
-  enum class Doing : std::uint8_t { Starting, Listening, Hearing, Understanding, Lost };
+  enum class Doing : std::uint8_t { Starting, Listening, Hearing, Understanding, Muted, Lost };
 
   Doing doing = Doing::Starting;
   double level = -100.0, noise = -100.0;  // dB below full scale: of the sound now, and of the noise
   std::string problem = {};               // why it hears nothing, a sentence; empty: it does
   std::vector<std::string> silent = {};   // words that cannot be heard, as they have no sounds
+};
+
+/// What an ear takes for spoken to it.
+enum class Attention : std::uint8_t {
+  Always,     // whatever is said
+  WhileHeld,  // what is said while a key is held down
 };
 
 /// Listens and recognises on a thread of its own, so that whoever owns it never waits. A source that is lost
@@ -45,6 +51,13 @@ class Ear {
   Ear(const Ear&) = delete;
   Ear& operator=(const Ear&) = delete;
 
+  /// To what it listens from now on; always at first.
+  void attend(Attention attention);
+  /// Is the key held down, while which it listens?
+  void hold(bool is_held);
+  /// Hears nothing from now on (true), as somebody speaks who is not meant; whatever is being said is
+  /// dropped.
+  void mute(bool muted);
   /// Sentences of these rules are recognised from now on; before the first call the source is not opened.
   void expect(Grammar grammar, std::string sentence, std::string usual);
   /// The utterances since the last call.
@@ -52,15 +65,25 @@ class Ear {
   EarState state() const;
 
  private:
+  struct Hearing;
   struct Expected {
     Grammar grammar;
     std::string sentence, usual;
   };
 
+  /// What is told from outside.
+  struct Wishes {
+    Attention attention = Attention::Always;
+    bool is_held = false, is_muted = false;
+  };
+
   void run(const std::stop_token& stop);
   void listen(SoundSource& source, Recogniser& recogniser, const std::stop_token& stop);
+  std::optional<std::vector<std::int16_t>> read(SoundSource& source);
+  std::vector<Utterance> hear(Hearing& hearing, Sound samples, const Wishes& wishes);
+  Wishes wishes() const;
   void follow(Recogniser& recogniser);
-  void understand(Recogniser& recogniser, Utterance utterance, double clock);
+  void understand(Recogniser& recogniser, const Utterance& utterance, double clock);
   void pause(double seconds, const std::stop_token& stop);
   template <typename Change>
   void change(const Change& change);
@@ -70,6 +93,7 @@ class Ear {
   VoiceSettings voice_;
   mutable std::mutex mutex_;
   std::condition_variable_any waits_;
+  Wishes wishes_;
   std::optional<Expected> expected_;  // what the recogniser does not know yet
   bool knows_ = false;                // has the recogniser a grammar? Its thread's
   EarState state_;

@@ -1,5 +1,4 @@
 // The only source that knows PortAudio.
-#include <alsa/asoundlib.h>
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <portaudio.h>
@@ -9,6 +8,7 @@
 #include <mutex>
 #include <utility>
 
+#include "sound/sound_output.h"
 #include "speech/hearing/recogniser.h"
 #include "speech/listening/sound_source.h"
 
@@ -18,11 +18,9 @@ namespace {
 using base::fail;
 using base::Result;
 
-void ignore_error(const char*, int, const char*, int, const char*, ...) {}
-
 /// Sound systems print to standard error what they look for and do not find, which says nothing to people.
 void quieten_sound_systems() {
-  snd_lib_error_set_handler(&ignore_error);
+  sound::quieten_alsa();
   // JACK comes with PortAudio or does not.
   using Print = void (*)(const char*);
   for (const char* const name : {"jack_set_error_function", "jack_set_info_function"})

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 
 #include "speech/hearing/recogniser.h"
 #include "speech/hearing/recording.h"
@@ -38,6 +39,12 @@ base::Result<std::unique_ptr<SoundSource>> open_recording(const std::string& fil
   auto samples = read_recording(file);
   if (!samples) return tl::unexpected(samples.error());
   return std::unique_ptr<SoundSource>(std::make_unique<RecordedSource>(std::move(*samples)));
+}
+
+OpenSource source_of(const std::string& name) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(name, error)) return [name] { return open_recording(name); };
+  return [name] { return open_microphone(name); };
 }
 
 }  // namespace icome::speech

@@ -29,4 +29,8 @@ std::vector<std::string> microphones();
 /// read_recording().
 base::Result<std::unique_ptr<SoundSource>> open_recording(const std::string& file);
 
+/// Opens the microphone of that name (of none: the usual one), or where it is the path of a file, that
+/// recording.
+OpenSource source_of(const std::string& name);
+
 }  // namespace icome::speech

@@ -16,7 +16,7 @@ constexpr std::array kCapabilities = {
     Capability{"head-tracking", "a device that tells where the head is", true, true, false},
     Capability{"haptic-menu", "menus in the scene that are clicked or pushed", true, true, true},
     Capability{"stereo", "a picture for each eye", true, true, false},
-    Capability{"speech", "commands that are spoken", false, false, false},
+    Capability{"speech", "a microphone, for choices that are spoken in English", true, false, false},
 };
 
 constexpr std::array<std::string_view, 5> kQuantities = {"time", "approach-time", "homing-time", "distance",

@@ -40,9 +40,12 @@ std::vector<world::ObjectId> shaped_objects(const world::World& world) {
   return shaped;
 }
 
-bool needs_stereo(const std::vector<std::string>& needs) {
-  return std::ranges::find(needs, "stereo") != needs.end();
+bool has_need(const std::vector<std::string>& needs, const char* need) {
+  return std::ranges::find(needs, need) != needs.end();
 }
+
+bool needs_stereo(const std::vector<std::string>& needs) { return has_need(needs, "stereo"); }
+bool needs_speech(const std::vector<std::string>& needs) { return has_need(needs, "speech"); }
 
 /// Stereo in trials whose levels say nothing of it: on where all of the study, or the scene, needs it, and
 /// off where only some levels have it.
@@ -66,6 +69,7 @@ void apply_levels(const Study& study, bool between, std::size_t crossing, TrialG
     goal.forces = level.forces.value_or(goal.forces);
     goal.head = level.head.value_or(goal.head);
     if (needs_stereo(level.needs)) goal.stereo = true;
+    if (needs_speech(level.needs)) goal.speech = true;
     if (level.stereo) goal.stereo = level.stereo;
   }
 }
@@ -222,6 +226,7 @@ base::Result<TrialGoal> trial_goal(const Study& study, const Participant& partic
   goal.choosing = task.choosing;
   goal.forces = task.forces;
   goal.head = task.head;
+  goal.speech = needs_speech(study.needs) || (scene != nullptr && needs_speech(scene->needs));
   goal.stereo = usual_stereo(study, scene);
   goal.start = scene != nullptr && scene->start ? *scene->start : task.start;
   goal.near = task.near.value_or(goal.near);

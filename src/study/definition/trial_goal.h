@@ -34,6 +34,7 @@ struct TrialGoal {
   Choosing choosing = Choosing::Touch;
   bool forces = true;
   bool head = true;
+  bool speech = false;                          // things are chosen by saying their names, too
   std::optional<bool> stereo;                   // each eye gets a picture; none: as it was chosen
   base::Vector3 start = base::Vector3::Zero();  // m, stage frame
   std::optional<TrialElement> element = {};

@@ -16,8 +16,8 @@ constexpr std::size_t kMostRecordedTrials = 20000;  // of a person; nobody sits 
 const std::vector<std::string> kPhases = {"practice", "measured"};
 const std::vector<std::string> kYesNo = {"yes", "no"};
 /// In the order of EventKind.
-const std::vector<std::string> kEventKinds = {"session",     "resumed",    "page",     "answer",
-                                              "unpractised", "broken-off", "declined", "over"};
+const std::vector<std::string> kEventKinds = {"session",    "resumed",  "page", "answer", "unpractised",
+                                              "broken-off", "declined", "over", "said"};
 
 std::vector<std::string> scene_ids(const Study& study) {
   std::vector<std::string> ids;
@@ -40,7 +40,8 @@ const Questionnaire* questionnaire_of(const Study& study, const std::string& nam
 
 /// Does an event belong to a condition? At position 0 it may belong to the first condition or to none.
 bool is_of_a_condition(const Study& study, const EventRecord& event) {
-  if (event.position > 0 || event.kind == EventKind::Unpractised || event.kind == EventKind::BrokenOff)
+  if (event.position > 0 || event.kind == EventKind::Unpractised || event.kind == EventKind::BrokenOff ||
+      event.kind == EventKind::Said)
     return true;
   if (event.kind == EventKind::Page) return event.name != "consent" && event.name != "instructions";
   if (event.kind != EventKind::Answer) return false;
@@ -199,7 +200,9 @@ Columns event_columns(const StudyFolder& folder) {
       {"unpractised", "Practice ended without its criterion being met."},
       {"broken-off", "A trial was given up, and is done again; value: why."},
       {"declined", "The person did not agree to take part, which ends the session."},
-      {"over", "The session is complete."}};
+      {"over", "The session is complete."},
+      {"said",
+       "Something was said in a trial; name: the words that were heard; value: what was chosen by it."}};
   return finished_columns({{"onset", "Since the person's session began.", "s"},
                            {"duration", "That it took the person.", "s"},
                            {"trial_type", "What happened.", "", kinds},

@@ -34,6 +34,7 @@ enum class EventKind : std::uint8_t {
   BrokenOff,    // a trial was given up and is done again; value: why
   Declined,     // the person did not agree to take part, which ends the session
   Over,         // the session is complete
+  Said,  // in a trial; name: the words that were heard; value: the thing that was chosen by it, or empty
 };
 
 /// An event other than a trial.

@@ -171,14 +171,33 @@ base::Result<void> SessionRun::answered(const std::vector<std::string>& answers)
   return go_on();
 }
 
-base::Result<void> SessionRun::trial_done(const TrialMeasures& measures, const Trace& trace) {
+/// Records what was said in a trial, but for what is on record already after a failure.
+base::Result<void> SessionRun::add_said(const std::vector<SaidInTrial>& said, const Trace& trace,
+                                        double trial_onset) {
+  for (const SaidInTrial& one : said) {
+    EventRecord event{EventKind::Said, in_ticks(trial_onset + one.begin), in_ticks(one.end - one.begin),
+                      step_.position, one.heard};
+    if (one.thing >= 0) event.value = trace.things[std::size_t(one.thing)];
+    const bool is_known = std::ranges::any_of(progress().events, [&](const EventRecord& it) {
+      return it.kind == EventKind::Said && it.onset == event.onset && it.name == event.name;
+    });
+    if (is_known) continue;
+    if (const auto added = log_.add(event); !added) return added;
+  }
+  return {};
+}
+
+base::Result<void> SessionRun::trial_done(const TrialMeasures& measures, const Trace& trace,
+                                          const std::vector<SaidInTrial>& said) {
   if (!trial_over_) trial_over_ = clock_();  // at the first attempt to record it
+  const double onset = in_ticks(*trial_over_ - measures.time);
+  if (const auto added = add_said(said, trace, onset); !added) return added;
   const bool recorded = !progress().trials.empty() && progress().trials.back().plan == step_.trial;
   if (!recorded) {
     TrialRecord record;
     record.plan = step_.trial;
     record.measures = measures;
-    record.onset = in_ticks(*trial_over_ - measures.time);
+    record.onset = onset;
     if (const auto added = log_.add(record, trace); !added) return added;
   }
   return go_on();

@@ -6,6 +6,7 @@
 
 #include "study/records/data_folder.h"
 #include "study/run/steps.h"
+#include "study/run/trial_ear.h"
 
 namespace icome::study {
 
@@ -46,7 +47,8 @@ class SessionRun {
   /// One answer for each item of the questionnaire, in their order; "" for none. Fails, naming the question,
   /// on an answer that is not one of its choices, not a number in its range, or missing although required.
   base::Result<void> answered(const std::vector<std::string>& answers);
-  base::Result<void> trial_done(const TrialMeasures& measures, const Trace& trace);
+  base::Result<void> trial_done(const TrialMeasures& measures, const Trace& trace,
+                                const std::vector<SaidInTrial>& said = {});
   /// Notes that the trial was given up, and why; the step stays.
   base::Result<void> trial_broken_off(const std::string& why);
   /// The person does not agree to take part: the session has ended, and begin() refuses it from now on.
@@ -55,6 +57,7 @@ class SessionRun {
  private:
   SessionRun(const Study& study, SessionLog log, Clock clock);
   base::Result<void> add(EventRecord event);
+  base::Result<void> add_said(const std::vector<SaidInTrial>& said, const Trace& trace, double trial_onset);
   base::Result<void> note_unpractised(std::size_t position);
   base::Result<void> go_on();
 

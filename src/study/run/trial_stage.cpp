@@ -45,6 +45,10 @@ struct TrialStage::Parts {
   std::uint64_t lost_before = 0;
   bool beep = false;
   bool hides = false;  // things are hidden by try_out()
+  speech::OpenSource microphone = [] { return speech::open_microphone(); };
+  std::unique_ptr<TrialEar> ear;  // null before the first trial that needs speech
+  double released_at = 0.0;       // s, on the clock of ears
+  std::vector<SaidInTrial> said;
   TrialMeasures measures;
   Trace trace;
   std::string why;
@@ -55,6 +59,8 @@ struct TrialStage::Parts {
   void begin_seeking();
   base::Result<TrialGoal> read_goal();
   base::Result<void> open_element(const TrialGoal& goal);
+  base::Result<void> listen(const TrialGoal& goal);
+  void hear_choices();
   void hide_things();
   void bring_back();
   void show_start();
@@ -173,6 +179,7 @@ void TrialStage::Parts::begin_seeking() {
   session.view().follow_head(goal->head);
   session.view().ask_for_stereo(goal->stereo);
   if (const auto opened = open_element(*goal); !opened) return fail(opened.error().message);
+  if (const auto listening = listen(*goal); !listening) return fail(listening.error().message);
   watch.emplace(std::move(*goal));
   session.hands().take_trace();  // the rest of another trial
   lost_before = session.hands().take_trace().lost;
@@ -180,6 +187,30 @@ void TrialStage::Parts::begin_seeking() {
   began = 0;
   state = State::Seeking;
   show_start();
+}
+
+base::Result<void> TrialStage::Parts::listen(const TrialGoal& goal) {
+  said.clear();
+  if (!goal.speech) {
+    ear.reset();
+    return {};
+  }
+  if (!ear) ear = std::make_unique<TrialEar>(microphone);
+  return ear->expect(goal);
+}
+
+/// Lets what was said choose. What was begun before the start is kept, and chooses nothing.
+void TrialStage::Parts::hear_choices() {
+  if (const std::string problem = ear->problem(); !problem.empty())
+    return fail("Nothing can be heard: " + problem + ".");
+  for (SaidInTrial& one : ear->take()) {
+    if (state != State::Running) continue;
+    one.begin -= released_at;
+    one.end -= released_at;
+    if (one.begin < 0.0) one.thing = -1;
+    if (one.thing >= 0) watch->say(one.thing);
+    said.push_back(std::move(one));
+  }
 }
 
 void TrialStage::Parts::hide_things() {
@@ -224,9 +255,11 @@ void TrialStage::Parts::take_ticks() {
   if (watch->state() == TrialWatch::State::Seeking) lost_before = taken.lost;
   if (taken.lost > lost_before)
     return fail("The computer was too busy to keep every movement: the trial has to be done again.");
+  if (ear) hear_choices();
+  if (!watch) return;  // nothing can be heard
   for (const session::PointerView& tick : taken.ticks)
     if (watch->state() != TrialWatch::State::Over) take_tick(tick, *taken.names);
-  if (watch->is_due()) release();
+  if (watch->is_due() && (!ear || ear->is_ready())) release();
   if (watch->state() == TrialWatch::State::Over) return end();
   if (state == State::Seeking || state == State::Holding) hold();
   light(watch->lit());
@@ -274,6 +307,7 @@ void TrialStage::Parts::release() {
   session.hands().hold_pointer({});
   session.hands().give_forces(watch->goal().forces);
   watch->release();
+  released_at = speech::clock_of_ears();
   state = State::Running;
   beep = study.trials.beep;
 }
@@ -296,6 +330,10 @@ double TrialStage::hold_left() const { return parts_->watch ? parts_->watch->hol
 base::Vector3 TrialStage::start() const {
   return parts_->watch ? parts_->watch->goal().start : base::Vector3(base::Vector3::Zero());
 }
+
+const std::vector<SaidInTrial>& TrialStage::said() const { return parts_->said; }
+
+void TrialStage::listen_to(speech::OpenSource microphone) { parts_->microphone = std::move(microphone); }
 
 const TrialMeasures& TrialStage::measures() const { return parts_->measures; }
 

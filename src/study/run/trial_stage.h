@@ -6,6 +6,7 @@
 
 #include "session/session.h"
 #include "study/records/records.h"
+#include "study/run/trial_ear.h"
 
 namespace icome::study {
 
@@ -27,6 +28,8 @@ class TrialStage {
              const Participant& participant);
   ~TrialStage();
 
+  /// The microphone by which things are chosen in trials that need speech; the usual one at first.
+  void listen_to(speech::OpenSource microphone);
   /// Sets the look of the session; the start is marked in it while it is sought.
   void set_look(const session::DisplayWish& look);
   /// Starts a trial, from Idle, Over or Failed.
@@ -46,6 +49,8 @@ class TrialStage {
   /// The place that the pointer is to be brought to, m, stage frame; while Seeking.
   base::Vector3 start() const;
   const TrialMeasures& measures() const;
+  /// What was said in a trial that is Over; times count from its start.
+  const std::vector<SaidInTrial>& said() const;
   const Trace& trace() const;
   const std::string& why() const;
 

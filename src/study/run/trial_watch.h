@@ -17,6 +17,9 @@ class TrialWatch {
   State step(const Sample& tick);
   /// Has the pointer been held long enough, so that it is to be released?
   bool is_due() const { return state_ == State::Holding && now_ - caught_ >= goal_.hold; }
+  /// The person has chosen this thing of the goal by saying its name, which counts in the next tick while
+  /// Running.
+  void say(int thing) { said_ = thing; }
   /// Releases the pointer: the next tick is the start.
   void release() { released_ = true; }
 
@@ -52,6 +55,7 @@ class TrialWatch {
   double caught_ = 0.0, now_ = 0.0, start_ = 0.0;  // s
   std::vector<Sample> samples_;
   TrialMeasures measures_;
+  int said_ = -1;
   bool released_ = false;
   bool approached_ = false;
   int lit_ = -1;

@@ -12,9 +12,10 @@
 #include <cstdio>
 
 #include "base/terminal_text.h"
+#include "sound/sound_output.h"
 #include "study/definition/session_length.h"
 #include "ui/look/theme.h"
-#include "ui/study/study_beep.h"
+#include "ui/study/start_tone.h"
 #include "ui/study/study_page.h"
 #include "ui/study/study_questions.h"
 #include "ui/study/study_scene.h"
@@ -30,6 +31,7 @@ namespace {
 
 constexpr int kThrough = 0;
 constexpr int kUnfinished = 3;
+constexpr int kToneRate = 48000;   // Hz
 constexpr double kLetters = 15.0;  // points: readable at arm's length
 
 /// A thin line that shows how much is done.
@@ -60,8 +62,8 @@ class ShareLine final : public QWidget {
 /// and session outlive it.
 class StudyWindow final : public QWidget {
  public:
-  StudyWindow(study::SessionRun& run, session::Session& session, study::TrialStage& stage, StudyBeep* beep,
-              const StudyWindowOptions& options);
+  StudyWindow(study::SessionRun& run, session::Session& session, study::TrialStage& stage,
+              sound::SoundOutput* beep, const StudyWindowOptions& options);
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -97,7 +99,7 @@ class StudyWindow final : public QWidget {
 
   study::SessionRun& run_;
   study::TrialStage& stage_;
-  StudyBeep* beep_;  // null: there is no sound
+  sound::SoundOutput* beep_;  // null: there is no sound
   StudyWindowOptions options_;
   StudyWords words_;
   ShareLine* share_;
@@ -121,7 +123,7 @@ std::string language_of(const study::SessionRun& run) {
 }
 
 StudyWindow::StudyWindow(study::SessionRun& run, session::Session& session, study::TrialStage& stage,
-                         StudyBeep* beep, const StudyWindowOptions& options)
+                         sound::SoundOutput* beep, const StudyWindowOptions& options)
     : run_(run),
       stage_(stage),
       beep_(beep),
@@ -345,14 +347,14 @@ void StudyWindow::follow_trial(State state) {
     stage_.begin(run_.step().trial);
     state = stage_.state();
   }
-  if (stage_.take_beep() && beep_) beep_->play();
+  if (stage_.take_beep() && beep_) beep_->play(start_tone(kToneRate));
   scene_->show_stage(stage_);
   if (state == State::Failed) {
     note_broken_off(stage_.why());
     tell_trouble(stage_.why(), [] {});
   } else if (state == State::Over) {
     trial_begun_ = false;
-    attempt([this] { return run_.trial_done(stage_.measures(), stage_.trace()); });
+    attempt([this] { return run_.trial_done(stage_.measures(), stage_.trace(), stage_.said()); });
   }
 }
 
@@ -421,10 +423,11 @@ void StudyWindow::closeEvent(QCloseEvent* event) {
   ask_to_interrupt();
 }
 
-std::unique_ptr<StudyBeep> open_beep() {
-  auto beep = StudyBeep::create();
+std::unique_ptr<sound::SoundOutput> open_beep() {
+  auto beep = sound::SoundOutput::open(kToneRate);
   if (beep) return std::move(*beep);
-  std::fprintf(stderr, "icome: %s\n", base::terminal_text(beep.error().message).c_str());
+  std::fprintf(stderr, "icome: The start of a trial is seen but not heard. %s\n",
+               base::terminal_text(beep.error().message).c_str());
   return nullptr;
 }
 
@@ -449,6 +452,7 @@ int run_study_window(int argc, char** argv, const StudyWindowOptions& options,
   auto run = begin();
   if (!run) return fail(run.error());
   study::TrialStage stage(**session, run->study(), folder, run->participant());
+  if (options.microphone) stage.listen_to(options.microphone);
   const auto beep = run->study().trials.beep ? open_beep() : nullptr;
   StudyWindow window(*run, **session, stage, beep.get(), options);
   options.full_screen ? window.showFullScreen() : window.show();

@@ -10,7 +10,8 @@ namespace icome::ui {
 
 struct StudyWindowOptions {
   bool full_screen = true;
-  std::string theme = {};  // "dark", "light"; empty: light
+  std::string theme = {};                   // "dark", "light"; empty: light
+  speech::OpenSource microphone = nullptr;  // for trials that need speech; none: the usual one
   /// Was the program asked to end (Ctrl-C)? It is called often; the session can be resumed then.
   std::function<bool()> interrupted = [] { return false; };
 };

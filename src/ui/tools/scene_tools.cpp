@@ -165,7 +165,7 @@ void SceneTools::ask_for_menu() {
 }
 
 /// The second button of a stylus opens the menu there, and closes it, where it is not the clutch. A technique
-/// travels with that button.
+/// travels with that button, and it may be the one to talk with.
 void SceneTools::notice_menu_buttons() {
   constexpr int kButton = 1;
   const session::SessionHands& hands = session_.hands();
@@ -175,7 +175,8 @@ void SceneTools::notice_menu_buttons() {
       const auto mapping = hands.use(i).mapping;
       down = !mapping || mapping->clutch_button != kButton;
     }
-    if (down && !std::exchange(menu_buttons_[i], down) && !session_.techniques().current())
+    if (down && !std::exchange(menu_buttons_[i], down) && !session_.techniques().current() &&
+        !listener_.button_talks())
       listener_.menu({.hand = i});
     menu_buttons_[i] = down;
   }

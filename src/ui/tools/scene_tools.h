@@ -30,6 +30,8 @@ class SceneTools {
     std::function<void(QPointF)> asked = [](QPointF) {};  // a right click, for the menu there in the window
     /// The haptic menu is asked for, or to go.
     std::function<void(const session::MenuSpot&)> menu = [](const session::MenuSpot&) {};
+    /// Does one talk with the second button of a stylus, so that it asks for no menu?
+    std::function<bool()> button_talks = [] { return false; };
   };
   SceneTools(session::Session& session, Listener listener);
   SceneTools(const SceneTools&) = delete;

@@ -94,6 +94,9 @@ void VoiceAgent::paintEvent(QPaintEvent*) {
     case Mood::Asking:
       painter.drawEllipse(QPointF(16.0, 20.0), 2.0, 2.0);
       break;
+    case Mood::Speaking:
+      painter.drawEllipse(QPointF(16.0, 20.0), 4.0, 2.5);
+      break;
     case Mood::Busy:
       for (const double x : {12.5, 16.0, 19.5}) painter.drawPoint(QPointF(x, 20.0));
       break;

@@ -4,11 +4,11 @@
 
 namespace icome::ui {
 
-/// The one who is spoken to: a small face that shows whether it listens, hears, thinks, has understood or has
-/// not (thesis 7.3, the metaphor of divinity).
+/// The one who is spoken to: a small face that shows whether it listens, hears, thinks, speaks, has
+/// understood or has not (thesis 7.3, the metaphor of divinity).
 class VoiceAgent final : public QWidget {
  public:
-  enum class Mood : std::uint8_t { Asleep, Listening, Hearing, Busy, Understood, Asking, Puzzled };
+  enum class Mood : std::uint8_t { Asleep, Listening, Hearing, Busy, Speaking, Understood, Asking, Puzzled };
 
   explicit VoiceAgent(QWidget* parent);
 

@@ -1,5 +1,6 @@
 #include "ui/voice/voice_bar.h"
 
+#include <QApplication>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QVBoxLayout>
@@ -8,6 +9,7 @@
 #include "ui/forms/elided_label.h"
 #include "ui/look/theme.h"
 #include "ui/panels/object_look.h"
+#include "ui/voice/voice_ways.h"
 
 namespace icome::ui {
 namespace {
@@ -22,6 +24,8 @@ VoiceAgent::Mood mood_of(const speech::EarState& ear) {
     case Doing::Starting:
     case Doing::Understanding:
       return VoiceAgent::Mood::Busy;
+    case Doing::Muted:
+      return VoiceAgent::Mood::Speaking;
     case Doing::Lost:
       return VoiceAgent::Mood::Puzzled;
   }
@@ -40,8 +44,8 @@ double share_of(double level) { return (level + 60.0) / 60.0; }
 
 }  // namespace
 
-VoiceBar::VoiceBar(session::Conversation& conversation, speech::OpenSource source, std::function<void()> done,
-                   QWidget* parent)
+VoiceBar::VoiceBar(session::Conversation& conversation, QSettings& settings, speech::OpenSource source,
+                   std::function<void()> done, QWidget* parent)
     : QWidget(parent), conversation_(conversation), done_(std::move(done)) {
   setObjectName("voice");
   agent_ = new VoiceAgent(this);
@@ -61,6 +65,12 @@ VoiceBar::VoiceBar(session::Conversation& conversation, speech::OpenSource sourc
   microphone_->setText("Listen");
   microphone_->setCheckable(true);
   microphone_->setToolTip("Listens to the microphone; what is heard is done at once, and undo takes it back");
+  ways_ = new QToolButton(this);
+  ways_->setObjectName("voice.options");
+  ways_->setText("Options");
+  ways_->setToolTip("When it listens, and whether it speaks");
+  ways_->setPopupMode(QToolButton::InstantPopup);
+  ways_->setMenu(new VoiceWays(conversation, settings, ways_));
   auto* captions = new QVBoxLayout;
   captions->setSpacing(0);
   captions->addWidget(heard_);
@@ -72,9 +82,34 @@ VoiceBar::VoiceBar(session::Conversation& conversation, speech::OpenSource sourc
   row->addLayout(captions, 3);
   row->addWidget(field_, 2);
   row->addWidget(microphone_);
+  row->addWidget(ways_);
   connect(field_, &QLineEdit::returnPressed, this, [this] { say(); });
   connect(microphone_, &QToolButton::toggled, this,
-          [this, source = std::move(source)](bool on) { conversation_.listen(on ? source : nullptr); });
+          [this, source = std::move(source)](bool on) { listen(on, source); });
+}
+
+/// While it listens, the key that is held down to talk counts wherever the keyboard is.
+void VoiceBar::listen(bool on, const speech::OpenSource& source) {
+  conversation_.listen(on ? source : nullptr);
+  conversation_.hold(false);
+  on ? qApp->installEventFilter(this) : qApp->removeEventFilter(this);
+  if (!on) return;
+  const session::ConversationWays& ways = conversation_.ways();
+  if (conversation_.listens_while_held())
+    reply_->setText("Hold F9, or the second button of a stylus, while you speak");
+  else if (ways.wake_word)
+    reply_->setText(QString("Begin with \u201c%1\u201d").arg(one_line(ways.wake_word->text())));
+}
+
+bool VoiceBar::eventFilter(QObject* watched, QEvent* event) {
+  const bool is_press = event->type() == QEvent::KeyPress;
+  if (is_press || event->type() == QEvent::KeyRelease) {
+    const auto* const key = static_cast<QKeyEvent*>(event);
+    if (key->key() == VoiceWays::kTalkKey && !key->isAutoRepeat()) conversation_.hold(is_press);
+  } else if (event->type() == QEvent::ApplicationDeactivate) {
+    conversation_.hold(false);  // its release goes to another program
+  }
+  return QWidget::eventFilter(watched, event);
 }
 
 void VoiceBar::say() {
@@ -89,15 +124,21 @@ void VoiceBar::show_answer(const session::Spoken& spoken) {
   QString heard = answer.heard.empty() ? QString() : QString("\u201c%1\u201d").arg(one_line(answer.heard));
   if (spoken.by_voice && !heard.isEmpty()) heard += QString(" (%1)").arg(spoken.score, 0, 'f', 1);
   heard_->setText(heard);
-  QString reply = one_line(answer.reply);
-  if (!conversation_.problem().empty()) reply += " " + one_line(conversation_.problem());
+  problem_ = conversation_.problem();
+  tell(one_line(answer.reply) + (problem_.empty() ? QString() : " " + one_line(problem_)));
+  agent_->show(mood_of(answer));
+}
+
+void VoiceBar::tell(const QString& reply) {
   reply_->setText(reply);
   reply_->setToolTip(reply);
-  agent_->show(mood_of(answer));
 }
 
 void VoiceBar::tick() {
   if (!isVisible()) return;
+  // A loudspeaker that is missing is found out later than the reply.
+  if (const std::string problem = conversation_.problem(); std::exchange(problem_, problem) != problem)
+    tell(reply_->text() + " " + one_line(problem));
   if (!conversation_.listens()) {
     agent_->show(VoiceAgent::Mood::Asleep);
     return;

@@ -22,13 +22,6 @@ Theme chosen_theme(const DesktopOptions& options, const QSettings& settings) {
   return theme.value_or(Theme::System);
 }
 
-/// The microphone of that name, or the file.
-speech::OpenSource chosen_source(const std::string& name) {
-  std::error_code error;
-  if (std::filesystem::is_regular_file(name, error)) return [name] { return speech::open_recording(name); };
-  return [name] { return speech::open_microphone(name); };
-}
-
 }  // namespace
 
 int run_desktop(int argc, char** argv, const DesktopOptions& options, session::SessionSettings settings) {
@@ -45,8 +38,9 @@ int run_desktop(int argc, char** argv, const DesktopOptions& options, session::S
     std::fprintf(stderr, "icome: %s\n", base::terminal_text(session.error().message).c_str());
     return 1;
   }
-  MainWindow window(**session, kept,
-                    {.theme = theme, .menu = options.menu, .microphone = chosen_source(options.microphone)});
+  MainWindow window(
+      **session, kept,
+      {.theme = theme, .menu = options.menu, .microphone = speech::source_of(options.microphone)});
   window.show();
   window.begin(options.design);
   return QApplication::exec();

@@ -51,7 +51,8 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
       tools_(session, {.chosen = [this](Tool tool) { show_tool(tool); },
                        .refused = [this](const std::string& why) { tell_error(why); },
                        .asked = [this](QPointF at) { show_scene_menu(at); },
-                       .menu = [this](const session::MenuSpot& spot) { haptic_menu_.toggle(spot); }}),
+                       .menu = [this](const session::MenuSpot& spot) { haptic_menu_.toggle(spot); },
+                       .button_talks = [this] { return conversation_.listens_while_held(); }}),
       files_(session, settings, *this),
       edits_(session, {.begin = [this] { return finish_work(); },
                        .refused = [this](const std::string& why) { tell_error(why); },
@@ -84,7 +85,8 @@ MainWindow::MainWindow(session::Session& session, QSettings& settings, const Opt
                               .save = [this] { files_.save(); },
                               .close_design = [this] { files_.leave(); },
                               .menu = [this] { return haptic_menu_.element(); },
-                              .open_menu = [this] { haptic_menu_.toggle({}); }}) {
+                              .open_menu = [this] { haptic_menu_.toggle({}); },
+                              .loudspeaker = options.loudspeaker}) {
   if (options_.menu) haptic_menu_.use(*options_.menu);
   setObjectName("icome");
   setWindowIcon(app_icon());
@@ -132,7 +134,8 @@ void MainWindow::make_center() {
   shaping_ = new ShapeOptions(session_, tools_.shape_tool(), center);
   scene_ = new SceneView(session_, tools_, center);
   voice_ = new VoiceBar(
-      conversation_, options_.microphone ? options_.microphone : [] { return speech::open_microphone(); },
+      conversation_, settings_,
+      options_.microphone ? options_.microphone : [] { return speech::open_microphone(); },
       [this] { scene_->take_keyboard(); }, center);
   voice_->hide();
   conversation_.on_answer([this](const session::Spoken& spoken) {

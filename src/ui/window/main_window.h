@@ -41,6 +41,7 @@ class MainWindow final : public QMainWindow {
     DeviceWays devices = {};
     std::optional<interaction::Element> menu = {};  // the haptic menu; none: as chosen before
     speech::OpenSource microphone = nullptr;        // that voice commands come from; none: the usual one
+    speech::OpenLoudspeaker loudspeaker = speech::open_loudspeaker;  // that replies are spoken by
   };
   MainWindow(session::Session& session, QSettings& settings, const Options& options);
   ~MainWindow() override;

@@ -62,6 +62,24 @@ TEST_F(LikelyMeant, IsDone) {
   EXPECT_EQ(design_.world().objects().size(), 2U);
 }
 
+TEST_F(LikelyMeant, IsDoneAfterTheWakeWordOnly) {
+  WakeWord word = *WakeWord::of("computer");
+  const auto understand = [&](const std::string& sentence, double begin) {
+    return understand_utterance(dialogue_, {heard(sentence, 0.0)}, begin, begin + 1.0, {}, &word);
+  };
+  const auto overheard = understand("a cone", 0.0);
+  EXPECT_FALSE(overheard.is_addressed);
+  EXPECT_FALSE(overheard.answer.accepted());
+  EXPECT_EQ(overheard.answer.reply, "That was not said to me: begin with \"computer\".");
+  EXPECT_EQ(understand("computer", 10.0).answer.reply, "Yes?");
+  EXPECT_TRUE(understand("a blue cone", 13.0).answer.accepted());
+  EXPECT_TRUE(understand("computer a green cone", 30.0).answer.accepted());
+  EXPECT_EQ(design_.world().objects().size(), 3U);
+  // What is asked back is answered without the word.
+  EXPECT_EQ(understand("computer select the cone", 50.0).answer.state, Answer::State::Asked);
+  EXPECT_TRUE(understand("the blue one", 53.0).answer.accepted());
+}
+
 TEST_F(LikelyMeant, IsNothingWhereAllAreUnlikely) {
   EXPECT_EQ(meant({}), "");
   EXPECT_EQ(meant({heard("a red box", 150.0)}), "");

@@ -89,6 +89,47 @@ TEST(Ear, TellsWhatWasSaidAndWhen) {
   EXPECT_TRUE(ear.state().problem.empty());
 }
 
+TEST(Ear, HearsWhatIsSaidWhileAKeyIsHeld) {
+  std::atomic<bool> lost = false;
+  Ear ear([&]() -> base::Result<std::unique_ptr<SoundSource>> { return std::make_unique<Whistle>(lost); },
+          yes_hearer);
+  ear.attend(Attention::WhileHeld);
+  ear.expect({}, "s", "often");
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  EXPECT_TRUE(ear.take().empty());
+  ear.hold(true);
+  EXPECT_TRUE(until([&] { return ear.state().doing == EarState::Doing::Hearing; }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(2200));
+  EXPECT_TRUE(ear.take().empty());  // it ends with the key, not with a pause
+  ear.hold(false);
+  std::vector<HeardUtterance> all;
+  ASSERT_TRUE(until([&] {
+    for (HeardUtterance& it : ear.take()) all.push_back(std::move(it));
+    return !all.empty();
+  }));
+  EXPECT_GT(all[0].end - all[0].begin, 1.0);  // two tones or three
+  EXPECT_TRUE(until([&] { return ear.state().doing == EarState::Doing::Listening; }));
+}
+
+TEST(Ear, HearsNothingWhileItIsMuted) {
+  std::atomic<bool> lost = false;
+  Ear ear([&]() -> base::Result<std::unique_ptr<SoundSource>> { return std::make_unique<Whistle>(lost); },
+          yes_hearer);
+  ear.mute(true);
+  ear.expect({}, "s", "often");
+  ASSERT_TRUE(until([&] { return ear.state().doing == EarState::Doing::Muted; }));
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  EXPECT_TRUE(ear.take().empty());
+  ear.mute(false);
+  const double heard_again = clock_of_ears();
+  std::vector<HeardUtterance> all;
+  ASSERT_TRUE(until([&] {
+    for (HeardUtterance& it : ear.take()) all.push_back(std::move(it));
+    return !all.empty();
+  }));
+  EXPECT_GT(all[0].end, heard_again - 0.1);
+}
+
 TEST(Ear, LooksForAMicrophoneThatWasLost) {
   std::atomic<bool> lost = false;
   Ear ear(

@@ -72,6 +72,8 @@ TEST(Needs, SimulatedPeopleHaveAHeadAndTwoEyesButNoVoice) {
   spoken.needs = {"speech", "stereo"};
   ASSERT_EQ(needs_not_simulated(spoken).size(), 1U);
   EXPECT_EQ(needs_not_simulated(spoken)[0].id, "speech");
+  EXPECT_TRUE(unmet_needs(spoken).empty());
+  EXPECT_EQ(needs_beyond_pointer(spoken)[0].id, "speech");
 }
 
 TEST(Needs, SomethingMustBeLeft) {

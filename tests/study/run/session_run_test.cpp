@@ -95,6 +95,31 @@ TEST(SessionRun, StepsHaveTheirTimes) {
   EXPECT_EQ(session.run().progress().trials.back().onset, 3.75);
 }
 
+TEST(SessionRun, WhatIsSaidInATrialIsOnRecord) {
+  SmallSession session;
+  while (session.run().step().kind != Step::Kind::Trial) session.step();
+  session.time += 5.0;
+  TrialMeasures measures;
+  measures.time = 2.0;
+  Trace trace;
+  trace.things = {"box", "ball"};
+  ASSERT_TRUE(session.run().trial_done(measures, trace,
+                                       {{0.5, 0.9, "the box", -3.0, 0}, {1.25, 1.75, "a\ttab", -3.0, -1}}));
+  ASSERT_EQ(session.count(EventKind::Said), 2U);
+  const double onset = session.run().progress().trials.back().onset;
+  session.begin("2026-11-22T11:00:00.000Z");  // from the files
+  ASSERT_EQ(session.count(EventKind::Said), 2U);
+  std::vector<EventRecord> said;
+  for (const EventRecord& event : session.run().progress().events)
+    if (event.kind == EventKind::Said) said.push_back(event);
+  EXPECT_EQ(said[0].name, "the box");
+  EXPECT_EQ(said[0].value, "box");
+  EXPECT_NEAR(said[0].onset, onset + 0.5, 1e-6);
+  EXPECT_NEAR(said[0].duration, 0.4, 1e-6);
+  EXPECT_EQ(said[1].value, "");
+  EXPECT_EQ(said[1].position, said[0].position);
+}
+
 TEST(SessionRun, AnotherProgramGoesOnWithTheSameStep) {
   SmallSession session;
   for (int i = 0; i < 7; ++i) session.step();

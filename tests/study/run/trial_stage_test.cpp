@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <mutex>
 #include <thread>
 
 #include "session/sessions.h"
+#include "sound/sound_file.h"
+#include "speech/hearing/recogniser.h"
+#include "speech/speaking/speaker.h"
 #include "study/trial_menus.h"
 #include "study/trial_scenes.h"
 
@@ -108,6 +112,101 @@ TEST(TrialStage, GivesNoForcesWhereTheConditionHasNone) {
   for (const Sample& sample : blank.stage->trace().samples)
     if (sample.time > 0.05) strongest = std::max(strongest, sample.force.norm());
   EXPECT_EQ(strongest, 0.0);
+}
+
+/// A quiet room in which somebody speaks when told to.
+class Speaking final : public speech::SoundSource {
+ public:
+  struct Person {
+    std::mutex mutex;
+    std::vector<std::int16_t> left;  // to be said
+
+    void say(const std::string& sentence) {
+      const auto spoken = speech::spoken_sentence(sentence).value();
+      sound::Samples samples{.rate = spoken.rate, .values = {}};
+      for (const std::int16_t sample : spoken.samples) samples.values.push_back(float(sample) / 32768.0F);
+      const std::lock_guard lock(mutex);
+      left.clear();
+      for (const float value : sound::resampled(samples, speech::kSampleRate, "").value().values)
+        left.push_back(std::int16_t(std::clamp(value, -1.0F, 0.99F) * 32768.0F));
+    }
+  };
+  explicit Speaking(Person& person) : person_(person) {}
+
+  base::Result<std::vector<std::int16_t>> read() override {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begun_;
+    const auto now = std::size_t(passed.count() * speech::kSampleRate);
+    std::vector<std::int16_t> came(now - read_, 0);
+    for (std::size_t i = 0; i < came.size(); ++i) came[i] = std::int16_t((read_ + i) * 7919 % 13) - 6;
+    read_ = now;
+    const std::lock_guard lock(person_.mutex);
+    const std::size_t count = std::min(came.size(), person_.left.size());
+    std::copy_n(person_.left.begin(), count, came.begin());
+    person_.left.erase(person_.left.begin(), person_.left.begin() + std::ptrdiff_t(count));
+    return came;
+  }
+
+ private:
+  Person& person_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  std::size_t read_ = 0;
+};
+
+/// Lets the stage go on for so many seconds, or until the trial is over.
+void go_on(TrialStage& stage, double seconds) {
+  const double end = speech::clock_of_ears() + seconds;
+  while (speech::clock_of_ears() < end && stage.update() < State::Over)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
+TEST(TrialStage, ThingsAreChosenBySayingTheirNamesWhereTheConditionHasIt) {
+  Blank blank;
+  blank.study.independent[0].levels[1].needs = {"speech"};
+  Speaking::Person person;
+  blank.stage->listen_to([&]() -> base::Result<std::unique_ptr<speech::SoundSource>> {
+    return std::make_unique<Speaking>(person);
+  });
+  TrialPlan plan = measured_trial(blank.study, {}, 0, 0);
+  plan.condition = 1;
+  blank.stage->begin(plan);
+  ASSERT_EQ(wait_for(*blank.stage, State::Running), State::Running) << blank.stage->why();
+  go_on(*blank.stage, 0.5);
+  person.say("block");
+  go_on(*blank.stage, 4.0);
+  ASSERT_EQ(blank.stage->state(), State::Running);
+  person.say("select the target");
+  ASSERT_EQ(wait_for(*blank.stage, State::Over), State::Over) << blank.stage->why();
+  EXPECT_TRUE(blank.stage->measures().completed);
+  EXPECT_EQ(blank.stage->measures().errors, 1);
+  const std::vector<SaidInTrial>& said = blank.stage->said();
+  ASSERT_EQ(said.size(), 2U);
+  const auto name = [&](int thing) { return blank.stage->trace().things.at(std::size_t(thing)); };
+  EXPECT_EQ(said[0].heard, "block");
+  EXPECT_EQ(name(said[0].thing), "block");
+  EXPECT_EQ(said[1].heard, "select the target");
+  EXPECT_EQ(name(said[1].thing), "target");
+  EXPECT_NEAR(said[0].begin, 0.6, 0.3);
+  EXPECT_GT(said[1].begin, said[0].end);
+  EXPECT_LT(said[1].end, blank.stage->measures().time);
+  // The other condition has no ears.
+  plan.condition = 0;
+  blank.stage->begin(plan);
+  ASSERT_EQ(wait_for(*blank.stage, State::Running), State::Running) << blank.stage->why();
+  person.say("select the target");
+  go_on(*blank.stage, 3.0);
+  EXPECT_EQ(blank.stage->state(), State::Running);
+  EXPECT_TRUE(blank.stage->said().empty());
+}
+
+TEST(TrialStage, ATrialThatNeedsSpeechFailsWithoutAMicrophone) {
+  Blank blank;
+  blank.study.needs = {"speech"};
+  blank.stage->listen_to([]() -> base::Result<std::unique_ptr<speech::SoundSource>> {
+    return base::fail("there is no microphone");
+  });
+  blank.stage->begin(measured_trial(blank.study, {}, 0, 0));
+  ASSERT_EQ(wait_for(*blank.stage, State::Over), State::Failed);
+  EXPECT_EQ(blank.stage->why(), "Nothing can be heard: there is no microphone.");
 }
 
 /// A head that leans to the right.

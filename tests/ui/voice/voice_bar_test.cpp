@@ -1,7 +1,9 @@
 // Voice commands of the window, typed and spoken.
 #include "ui/voice/voice_bar.h"
 
+#include <QKeyEvent>
 #include <QToolButton>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 
@@ -96,6 +98,58 @@ TEST_F(VoiceBarTest, ListensOnlyWhileItIsShown) {
   EXPECT_TRUE(until([&] { return mood() == VoiceAgent::Mood::Asleep; }));
 }
 
+TEST_F(VoiceBarTest, WaysOfListeningAreKept) {
+  auto* const microphone = window_->findChild<QToolButton*>("voice.microphone");
+  action("voice.held")->trigger();
+  microphone->setChecked(true);
+  EXPECT_TRUE(text("voice.reply").contains("F9")) << text("voice.reply").toStdString();
+  QKeyEvent press(QEvent::KeyPress, Qt::Key_F9, Qt::NoModifier),
+      release(QEvent::KeyRelease, Qt::Key_F9, Qt::NoModifier);
+  QApplication::sendEvent(window_.get(), &press);
+  QApplication::sendEvent(window_.get(), &release);
+  microphone->setChecked(false);
+  action("voice.called")->trigger();
+  auto* const word = window_->findChild<QLineEdit*>("voice.word");
+  word->setText("my friend");
+  emit word->editingFinished();
+  word->setText("no. 5!");
+  emit word->editingFinished();
+  EXPECT_EQ(word->text(), "my friend");
+  microphone->setChecked(true);
+  EXPECT_TRUE(text("voice.reply").contains("my friend")) << text("voice.reply").toStdString();
+  open_window();
+  EXPECT_TRUE(action("voice.called")->isChecked());
+  EXPECT_EQ(window_->findChild<QLineEdit*>("voice.word")->text(), "my friend");
+}
+
+/// Keeps what it was to play, and plays nothing.
+class SilentPhones final : public speech::Loudspeaker {
+ public:
+  explicit SilentPhones(std::atomic<int>& played) : played_(played) {}
+  void play(speech::SpokenSentence sentence) override { played_ += sentence.samples.empty() ? 0 : 1; }
+  void stop() override {}
+  bool is_playing() const override { return false; }
+
+ private:
+  std::atomic<int>& played_;
+};
+
+TEST_F(VoiceBarTest, RepliesAreSpokenWhereThatIsWished) {
+  std::atomic<int> played = 0;
+  session::Conversation conversation(
+      session(), {.loudspeaker = [&](int) -> base::Result<std::unique_ptr<speech::Loudspeaker>> {
+        return std::unique_ptr<speech::Loudspeaker>(std::make_unique<SilentPhones>(played));
+      }});
+  conversation.say("a red box");
+  conversation.set_ways({.speaks = true});
+  conversation.say("a blue box");
+  EXPECT_TRUE(until([&] { return played == 1; }));
+  conversation.set_ways({});
+  conversation.say("undo");
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(played, 1);
+}
+
 TEST_F(VoiceBarTest, AnotherDesignIsSpokenOfAnew) {
   type("a red box");
   session().files().make_new();
@@ -104,6 +158,29 @@ TEST_F(VoiceBarTest, AnotherDesignIsSpokenOfAnew) {
   EXPECT_EQ(mood(), VoiceAgent::Mood::Puzzled);
   type("a blue box");
   EXPECT_EQ(named("box").size(), 1U);
+}
+
+TEST_F(VoiceBarTest, ListensToAPersonWhoSaysYesWhileAKeyIsHeld) {
+  const auto file = places::shared_data() / "speech" / "speech_commands" / "yes_1.wav";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  session::Conversation conversation(session(), {});
+  std::vector<session::Spoken> all;
+  conversation.on_answer([&](const session::Spoken& spoken) { all.push_back(spoken); });
+  conversation.set_ways({.attention = speech::Attention::WhileHeld});
+  conversation.listen([file] { return speech::open_recording(file.string()); });
+  EXPECT_TRUE(conversation.listens_while_held());
+  conversation.hold(true);
+  ASSERT_TRUE(until([&] {
+    conversation.tick();
+    return conversation.ear().doing == speech::EarState::Doing::Hearing;
+  }));
+  const double begun = speech::clock_of_ears();
+  ASSERT_TRUE(until([&] {
+    conversation.tick();
+    conversation.hold(speech::clock_of_ears() < begun + 1.5);
+    return !all.empty();
+  })) << conversation.ear().problem;
+  EXPECT_EQ(all.front().answer.heard, "yes");
 }
 
 TEST_F(VoiceBarTest, ListensToAPersonWhoSaysYes) {

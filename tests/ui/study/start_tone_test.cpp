@@ -1,4 +1,4 @@
-#include "ui/study/study_beep.h"
+#include "ui/study/start_tone.h"
 
 #include <gtest/gtest.h>
 
