@@ -192,7 +192,7 @@ class SphinxRecogniser final : public Recogniser {
       int32 score = 0;
       if (ps_nbest_hyp(paths.get(), &score) != nullptr) {
         if (!best) best = score;
-        Heard heard{words_of(paths.get())};
+        Heard heard{words_of(ps_nbest_seg(paths.get()))};
         heard.behind = natural(*best - score);
         heard.score = fit - heard.behind / frames;
         if (tried.insert(heard.sentence()).second && is_sentence(heard)) all.push_back(std::move(heard));
@@ -201,12 +201,17 @@ class SphinxRecogniser final : public Recogniser {
       ps_nbest_t* const next = ps_nbest_next(paths.release());
       paths.reset(next);
     }
+    // Where somebody paused between two words the likeliest of all is not among them.
+    Heard first{words_of(ps_seg_iter(decoder_.get()))};
+    first.score = fit;
+    if (!tried.contains(first.sentence()) && is_sentence(first)) all.insert(all.begin(), std::move(first));
     return all;
   }
 
-  static std::vector<HeardWord> words_of(ps_nbest_t* path) {
+  /// The words from a segment on; frees it.
+  static std::vector<HeardWord> words_of(ps_seg_t* segment) {
     std::vector<HeardWord> words;
-    for (ps_seg_t* segment = ps_nbest_seg(path); segment; segment = ps_seg_next(segment)) {
+    for (; segment != nullptr; segment = ps_seg_next(segment)) {
       const char* const word = ps_seg_word(segment);
       if (!word || is_filler(word)) continue;
       int first = 0, last = 0;

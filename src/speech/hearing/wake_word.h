@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,8 +40,9 @@ class WakeWord {
   explicit WakeWord(std::vector<std::string> words) : words_(std::move(words)) {}
   bool begins(const Heard& heard) const;
 
+  static constexpr double kNever = -std::numeric_limits<double>::infinity();
   std::vector<std::string> words_;
-  double awake_until_ = -1e300;  // s
+  double awake_until_ = kNever;  // s
 };
 
 }  // namespace icome::speech

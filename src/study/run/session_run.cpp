@@ -175,8 +175,12 @@ base::Result<void> SessionRun::answered(const std::vector<std::string>& answers)
 base::Result<void> SessionRun::add_said(const std::vector<SaidInTrial>& said, const Trace& trace,
                                         double trial_onset) {
   for (const SaidInTrial& one : said) {
-    EventRecord event{EventKind::Said, in_ticks(trial_onset + one.begin), in_ticks(one.end - one.begin),
-                      step_.position, one.heard, {}};
+    EventRecord event{EventKind::Said,
+                      in_ticks(trial_onset + one.begin),
+                      in_ticks(one.end - one.begin),
+                      step_.position,
+                      one.heard,
+                      {}};
     if (one.thing >= 0) event.value = trace.things[std::size_t(one.thing)];
     const bool is_known = std::ranges::any_of(progress().events, [&](const EventRecord& it) {
       return it.kind == EventKind::Said && it.onset == event.onset && it.name == event.name;

@@ -61,6 +61,7 @@ ShortcutSheet::Part mouse_part() {
            {"Touch", "Press the button, the pen or Enter"},
            {"Haptic menu", "Space, or a stylus's second button"},
            {"\u2026 choose from it", "Click, push, or arrow keys and Enter"},
+           {"Talk, where voice commands ask for it", "hold F9, or a stylus's second button"},
            {"Next tool", "Tab"},
            {"Back out", "Esc"}}};
 }

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <thread>
 
+#include "speech/until.h"
+
 namespace icome::speech {
 namespace {
 
@@ -52,16 +54,6 @@ class YesHearer final : public Recogniser {
 
 base::Result<std::unique_ptr<Recogniser>> yes_hearer() {
   return std::unique_ptr<Recogniser>(std::make_unique<YesHearer>());
-}
-
-template <typename Come>
-bool until(const Come& come) {
-  const auto begun = steady_clock::now();
-  while (steady_clock::now() - begun < std::chrono::seconds(30)) {
-    if (come()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return false;
 }
 
 TEST(Ear, TellsWhatWasSaidAndWhen) {

@@ -3,16 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <thread>
 
 #include "speech/hearing/word_sounds.h"
+#include "speech/until.h"
 
 namespace icome::speech {
 namespace {
-
-using std::chrono::steady_clock;
 
 /// What loudspeakers were told.
 struct Played {
@@ -44,16 +41,6 @@ OpenLoudspeaker phones(Played& played) {
     EXPECT_GT(rate, 8000);
     return std::unique_ptr<Loudspeaker>(std::make_unique<Phones>(played));
   };
-}
-
-template <typename Come>
-bool until(const Come& come) {
-  const auto begun = steady_clock::now();
-  while (steady_clock::now() - begun < std::chrono::seconds(30)) {
-    if (come()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return false;
 }
 
 TEST(SpokenSentence, LastsAsLongAsPeopleTakeForIt) {
