@@ -2,12 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <sstream>
 
 #include "interaction/operations/operation_runner.h"
-#include "sound/sound_file.h"
-#include "speech/speaking/speaker.h"
+#include "speech/said_aloud.h"
 
 namespace icome::speech {
 namespace {
@@ -83,17 +81,6 @@ TEST_F(LikelyMeant, IsDoneAfterTheWakeWordOnly) {
   EXPECT_TRUE(understand("the blue one", 53.0).answer.accepted());
 }
 
-/// What the synthetic voice says, at the rate of the recogniser.
-std::vector<std::int16_t> said_by_espeak(const std::string& sentence) {
-  const auto spoken = spoken_sentence(sentence).value();
-  sound::Samples samples{.rate = spoken.rate, .values = {}};
-  for (const std::int16_t sample : spoken.samples) samples.values.push_back(float(sample) / 32768.0F);
-  std::vector<std::int16_t> said;
-  for (const float value : sound::resampled(samples, kSampleRate, "").value().values)
-    said.push_back(std::int16_t(std::clamp(value, -1.0F, 0.99F) * 32768.0F));
-  return said;
-}
-
 TEST_F(LikelyMeant, IsHeardWithAPauseInIt) {
   const auto recogniser = make_sphinx_recogniser();
   if (!recogniser) GTEST_SKIP() << recogniser.error().message;
@@ -101,7 +88,7 @@ TEST_F(LikelyMeant, IsHeardWithAPauseInIt) {
       WakeWord::of("computer")
           ->with_word(dialogue_.vocabulary().grammar, {Dialogue::kSentence, Dialogue::kUsualSentence});
   ASSERT_TRUE((*recogniser)->set_grammar(grammar, WakeWord::kRules));
-  const auto sentences = (*recogniser)->recognise(said_by_espeak("computer, create a small red sphere"));
+  const auto sentences = (*recogniser)->recognise(said_aloud("computer, create a small red sphere"));
   ASSERT_TRUE(sentences) << sentences.error().message;
   ASSERT_FALSE(sentences->empty());
   EXPECT_EQ(sentences->front().sentence(), "computer create a small red sphere");

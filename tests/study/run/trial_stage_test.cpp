@@ -7,9 +7,7 @@
 #include <thread>
 
 #include "session/sessions.h"
-#include "sound/sound_file.h"
-#include "speech/hearing/recogniser.h"
-#include "speech/speaking/speaker.h"
+#include "speech/said_aloud.h"
 #include "study/trial_menus.h"
 #include "study/trial_scenes.h"
 
@@ -122,13 +120,9 @@ class Speaking final : public speech::SoundSource {
     std::vector<std::int16_t> left;  // to be said
 
     void say(const std::string& sentence) {
-      const auto spoken = speech::spoken_sentence(sentence).value();
-      sound::Samples samples{.rate = spoken.rate, .values = {}};
-      for (const std::int16_t sample : spoken.samples) samples.values.push_back(float(sample) / 32768.0F);
+      std::vector<std::int16_t> said = speech::said_aloud(sentence);
       const std::lock_guard lock(mutex);
-      left.clear();
-      for (const float value : sound::resampled(samples, speech::kSampleRate, "").value().values)
-        left.push_back(std::int16_t(std::clamp(value, -1.0F, 0.99F) * 32768.0F));
+      left = std::move(said);
     }
   };
   explicit Speaking(Person& person) : person_(person) {}
