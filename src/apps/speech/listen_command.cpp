@@ -69,7 +69,7 @@ class Listener {
   Result<void> hear_microphone(std::unique_ptr<speech::Recogniser> recogniser) {
     if (const auto there = speech::open_microphone(options_.microphone); !there)
       return base::fail(there.error().message + "; give it recordings instead");
-    const double begin = begun_ = speech::clock_of_ears();
+    const double begin = speech::clock_of_ears();
     speech::Ear ear([this] { return speech::open_microphone(options_.microphone); },
                     [&]() -> Result<std::unique_ptr<speech::Recogniser>> { return std::move(recogniser); },
                     {.hang = options_.hang});
@@ -78,7 +78,7 @@ class Listener {
     while (!interrupted()) {
       if (auto grammar = new_grammar())
         ear.expect(std::move(*grammar), std::string(rules().sentence), std::string(rules().usual));
-      ear.mute(is_speaking());
+      follow_speaker(ear, speech::clock_of_ears() - begin);
       for (const speech::HeardUtterance& it : ear.take()) {
         const Stopwatch watch;
         const HeardAt place{kMicrophoneName, it.begin - begin, it.end - begin, 0.0};
@@ -127,18 +127,14 @@ class Listener {
     return grammar;
   }
 
-  /// Does it speak, or does what it spoke still come back from the room?
-  bool is_speaking() {
-    constexpr double kEcho = 0.4;  // s
-    if (!speaker_) return false;
-    const double time = speech::clock_of_ears();
-    if (speaker_->is_speaking()) {
-      spoke_at_ = time;
-      if (wake_word_ && talk_.dialogue().asks()) wake_word_->stay_awake(time - begun_);
-    }
-    if (const std::string problem = speaker_->problem(); std::exchange(unheard_, problem) != problem)
-      tell(problem);
-    return time < spoke_at_ + kEcho;
+  /// Hears nothing while it speaks; a question of its own is answered without the wake word.
+  void follow_speaker(speech::Ear& ear, double time) {
+    if (!speaker_) return;
+    const bool is_about = speaker_->is_about();
+    if (is_about && wake_word_ && talk_.dialogue().asks()) wake_word_->stay_awake(time);
+    ear.mute(is_about);
+    const std::string problem = speaker_->problem();
+    if (std::exchange(unheard_, problem) != problem && !problem.empty()) tell(problem);
   }
 
   void tell_silent(const std::vector<std::string>& silent) {
@@ -171,10 +167,8 @@ class Listener {
   speech::HearingLimits limits_;
   std::optional<speech::WakeWord> wake_word_;
   std::optional<speech::Speaker> speaker_;
-  std::string unheard_;     // why the speaker is not heard, as it was told
-  double spoke_at_ = -1e9;  // s
-  double begun_ = 0.0;      // s, from which the times of the microphone count
-  std::string known_;       // the grammar that the recogniser has
+  std::string unheard_;  // why the speaker is not heard, as it was told
+  std::string known_;    // the grammar that the recogniser has
   std::vector<std::string> silent_;
   double time_ = 0.0;  // s, of the beginning of the recording
 };

@@ -13,7 +13,6 @@ namespace {
 using base::Result;
 using speech::Dialogue;
 
-constexpr double kEcho = 0.4;  // s, in which what was spoken may still come back from the room
 constexpr std::uint32_t kTalkButton = 1U << 1U;
 constexpr const char* kBusy = "something else in the window must be finished first";
 
@@ -89,12 +88,10 @@ struct Conversation::Parts {
 
   /// Hears nothing while it speaks; a question of its own is answered without the wake word.
   void follow_speaker() {
-    const double time = speech::clock_of_ears();
-    if (speaker && speaker->is_speaking()) {
-      spoke_at = time;
-      if (ways.wake_word && talk().asks()) ways.wake_word->stay_awake(time);
-    }
-    if (ear) ear->mute(!is_held && time < spoke_at + kEcho);
+    if (!speaker) return;
+    const bool is_about = speaker->is_about();
+    if (is_about && ways.wake_word && talk().asks()) ways.wake_word->stay_awake(speech::clock_of_ears());
+    if (ear) ear->mute(is_about && !is_held);
   }
 
   /// The word that begins what is meant now; null: all is meant.
@@ -115,9 +112,7 @@ struct Conversation::Parts {
     const bool held = is_key_held || (ways.attention == speech::Attention::WhileHeld && is_button_down());
     if (std::exchange(is_held, held) == held) return;
     ear->hold(held);
-    if (!held) return;
-    if (speaker) speaker->stop();
-    spoke_at = -1e9;
+    if (held && speaker) speaker->stop();
   }
 
   void understand(const speech::HeardUtterance& utterance) {
@@ -154,7 +149,6 @@ struct Conversation::Parts {
   ConversationWays ways;
   std::unique_ptr<speech::Ear> ear;          // null: it does not listen
   std::unique_ptr<speech::Speaker> speaker;  // null: it has not spoken
-  double spoke_at = -1e9;                    // s, when it was last heard to speak
   bool is_key_held = false;
   bool is_held = false;  // a key or a button
   std::function<void(const Spoken&)> listener = [](const Spoken&) {};

@@ -24,6 +24,10 @@ int keep_samples(short* samples, int count, espeak_EVENT* events) {
   return kGoOn;
 }
 
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 class SystemLoudspeaker final : public Loudspeaker {
  public:
   explicit SystemLoudspeaker(std::unique_ptr<sound::SoundOutput> output) : output_(std::move(output)) {}
@@ -72,6 +76,11 @@ void Speaker::say(std::string sentence) {
   waits_.notify_all();
 }
 
+bool Speaker::is_about() const {
+  const std::lock_guard lock(mutex_);
+  return speaks_ || told_ || now() < spoken_at_ + kEcho;
+}
+
 bool Speaker::is_speaking() const {
   const std::lock_guard lock(mutex_);
   return speaks_ || told_.has_value();
@@ -111,6 +120,7 @@ void Speaker::speak(const std::string& sentence, const std::stop_token& stop) {
   while (loudspeaker_->is_playing() && !told_ && !stop.stop_requested())
     waits_.wait_for(lock, stop, kLook, [this] { return told_.has_value(); });
   loudspeaker_->stop();
+  spoken_at_ = now();
 }
 
 }  // namespace icome::speech

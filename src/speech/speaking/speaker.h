@@ -2,6 +2,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -52,6 +53,9 @@ class Speaker {
   void stop() { say({}); }
   /// From say() until the last sound was played.
   bool is_speaking() const;
+  /// May it be heard by an ear in the room: is it speaking, or has it spoken within kEcho s?
+  bool is_about() const;
+  static constexpr double kEcho = 0.4;  // s, in which what was spoken may still come back
   /// Why it cannot be heard, a sentence; empty: it can, or has not spoken yet.
   std::string problem() const;
 
@@ -65,6 +69,7 @@ class Speaker {
   std::condition_variable_any waits_;
   std::optional<std::string> told_;  // to be said next; empty: nothing
   bool speaks_ = false;
+  double spoken_at_ = -std::numeric_limits<double>::infinity();  // s of the steady clock, its last sound
   std::string problem_;
   std::jthread thread_;  // the last one, as it uses all others
 };

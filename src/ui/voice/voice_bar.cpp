@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QHBoxLayout>
 #include <QKeyEvent>
+#include <QPushButton>
 #include <QVBoxLayout>
 #include <utility>
 
@@ -65,12 +66,11 @@ VoiceBar::VoiceBar(session::Conversation& conversation, QSettings& settings, spe
   microphone_->setText("Listen");
   microphone_->setCheckable(true);
   microphone_->setToolTip("Listens to the microphone; what is heard is done at once, and undo takes it back");
-  ways_ = new QToolButton(this);
-  ways_->setObjectName("voice.options");
-  ways_->setText("Options");
-  ways_->setToolTip("When it listens, and whether it speaks");
-  ways_->setPopupMode(QToolButton::InstantPopup);
-  ways_->setMenu(new VoiceWays(conversation, settings, ways_));
+  auto* const ways = new QPushButton("Options", this);
+  ways->setObjectName("voice.options");
+  ways->setFlat(true);
+  ways->setToolTip("When it listens, and whether it speaks");
+  ways->setMenu(new VoiceWays(conversation, settings, ways));
   auto* captions = new QVBoxLayout;
   captions->setSpacing(0);
   captions->addWidget(heard_);
@@ -82,7 +82,7 @@ VoiceBar::VoiceBar(session::Conversation& conversation, QSettings& settings, spe
   row->addLayout(captions, 3);
   row->addWidget(field_, 2);
   row->addWidget(microphone_);
-  row->addWidget(ways_);
+  row->addWidget(ways);
   connect(field_, &QLineEdit::returnPressed, this, [this] { say(); });
   connect(microphone_, &QToolButton::toggled, this,
           [this, source = std::move(source)](bool on) { listen(on, source); });

@@ -40,7 +40,7 @@ class VoiceBar final : public QWidget {
   VoiceAgent* agent_;
   QLabel *heard_, *reply_;
   QLineEdit* field_;
-  QToolButton *microphone_, *ways_;
+  QToolButton* microphone_;
   std::string problem_;  // that was told
 };
 

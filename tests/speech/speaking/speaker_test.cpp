@@ -69,6 +69,8 @@ TEST(Speaker, SpeaksUntilTheLastSoundWasPlayed) {
   EXPECT_TRUE(speaker.is_speaking());
   played.plays = false;  // it has ended
   EXPECT_TRUE(until([&] { return !speaker.is_speaking(); }));
+  EXPECT_TRUE(speaker.is_about());  // it may still come back from the room
+  EXPECT_TRUE(until([&] { return !speaker.is_about(); }));
   EXPECT_EQ(speaker.problem(), "");
 }
 
