@@ -29,7 +29,7 @@ test:  ## every check: layout, names, layers, unit and program tests, sanitizers
 
 bench:  ## compare ourselves with the naive ways and with packaged peers
 	tools/install-packages build run bench
-	cmake --preset release -DICOME_BUILD_BENCHMARKS=ON
+	cmake --preset release -DICOME_BUILD_BENCHMARKS=ON -DICOME_OPTIMISE_BENCHMARKS=ON
 	cmake --build --preset release -j $(JOBS) --target bench
 
 format:  ## lay out every C++ file

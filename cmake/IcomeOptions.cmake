@@ -7,6 +7,7 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 
 option(ICOME_BUILD_TESTS "Build the tests" ON)
 option(ICOME_BUILD_BENCHMARKS "Build the benchmarks" OFF)
+option(ICOME_OPTIMISE_BENCHMARKS "Optimise the benchmarks' own sources; off where they are compiled but not run" ON)
 option(ICOME_WARNINGS_AS_ERRORS "A compiler warning fails the build (what `make test` asks for)" OFF)
 set(ICOME_BATCH 0 CACHE STRING "How many sources one compiler run takes at most; 0: each by itself")
 set(ICOME_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, such as address,undefined")
