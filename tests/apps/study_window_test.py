@@ -178,11 +178,12 @@ class StudyWindowTest(DesktopTest):
         with wave.open(str(said)) as one, wave.open(str(all_of_it), "wb") as many:
             many.setparams(one.getparams())
             sentence = one.readframes(one.getnframes())
-            many.writeframes(30 * (bytes(2 * 2 * one.getframerate()) + sentence))  # after two seconds each time
+            many.writeframes(100 * (bytes(2 * 2 * one.getframerate()) + sentence))  # after two seconds each time
         desktop = self.run_study("--microphone", all_of_it)
         self.answer(desktop)
         self.key_until(desktop, "events", 6, "Return")
-        wait_for("two trials", lambda: len(self.rows("beh")) >= 2)
+        # Loading what recognises speech takes seconds of a processor, and others may need it too.
+        wait_for("two trials", lambda: len(self.rows("beh")) >= 2, patience=300)
         spoken = [row.split("\t") for row in self.rows("events") if "\tsaid\t" in row]
         self.assertIn(["select the ball", "ball"], [row[4:6] for row in spoken])
         desktop.process.send_signal(signal.SIGTERM)

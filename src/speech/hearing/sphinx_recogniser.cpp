@@ -35,14 +35,16 @@ constexpr std::size_t kMostSentences = 12;
 /// Sentences drawn at random, mostly such as people say most, without words that cannot be heard.
 std::vector<LanguageModel::Sentence> example_sentences(const Grammar& grammar, const HeardRules& rules,
                                                        const std::set<std::string>& known) {
-  constexpr int kSentences = 40'000;
+  // Few words are known well from few sentences, and are learnt in no time.
+  constexpr std::size_t kMostDrawn = 40'000, kDrawnForAWord = 200;
+  const std::size_t drawn = std::min(kMostDrawn, kDrawnForAWord * known.size());
   constexpr double kUsual = 0.8;  // of them
   const Pattern* const all = grammar.find(rules.sentence);
   const Pattern* const usual = grammar.find(rules.usual);
   base::Random random(1);
   std::vector<LanguageModel::Sentence> sentences;
   if (all == nullptr) return sentences;
-  for (int i = 0; i < kSentences; ++i) {
+  for (std::size_t i = 0; i < drawn; ++i) {
     const bool is_usual = usual != nullptr && random.uniform(0.0, 1.0) < kUsual;
     auto words = sample_sentence(grammar, is_usual ? *usual : *all, random);
     if (words && std::ranges::all_of(*words, [&](const auto& word) { return known.contains(word); }))

@@ -28,6 +28,8 @@ class TrialEar {
   /// Listens for the names of the goal's things that are the target or wrong. Fails where two of them that
   /// differ in that sound alike.
   base::Result<void> expect(const TrialGoal& goal);
+  /// Hears nothing from now on (true).
+  void mute(bool muted) { ear_.mute(muted); }
   /// Does it listen?
   bool is_ready() const;
   /// Why it hears nothing, a sentence; empty: it does, or is not ready yet.

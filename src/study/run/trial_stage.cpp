@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "interaction/object_edits.h"
+#include "study/definition/needs.h"
 #include "study/run/trial_watch.h"
 
 namespace icome::study {
@@ -46,7 +47,8 @@ struct TrialStage::Parts {
   bool beep = false;
   bool hides = false;  // things are hidden by try_out()
   speech::OpenSource microphone = [] { return speech::open_microphone(); };
-  std::unique_ptr<TrialEar> ear;  // null before the first trial that needs speech
+  std::unique_ptr<TrialEar> ear;  // null: no trial that needs speech was there yet
+  bool hears = false;             // does this trial need it?
   double released_at = 0.0;       // s, on the clock of ears
   std::vector<SaidInTrial> said;
   TrialMeasures measures;
@@ -191,10 +193,9 @@ void TrialStage::Parts::begin_seeking() {
 
 base::Result<void> TrialStage::Parts::listen(const TrialGoal& goal) {
   said.clear();
-  if (!goal.speech) {
-    ear.reset();
-    return {};
-  }
+  hears = goal.speech;
+  if (ear) ear->mute(!hears);
+  if (!hears) return {};
   if (!ear) ear = std::make_unique<TrialEar>(microphone);
   return ear->expect(goal);
 }
@@ -255,11 +256,11 @@ void TrialStage::Parts::take_ticks() {
   if (watch->state() == TrialWatch::State::Seeking) lost_before = taken.lost;
   if (taken.lost > lost_before)
     return fail("The computer was too busy to keep every movement: the trial has to be done again.");
-  if (ear) hear_choices();
+  if (hears) hear_choices();
   if (!watch) return;  // nothing can be heard
   for (const session::PointerView& tick : taken.ticks)
     if (watch->state() != TrialWatch::State::Over) take_tick(tick, *taken.names);
-  if (watch->is_due() && (!ear || ear->is_ready())) release();
+  if (watch->is_due() && (!hears || ear->is_ready())) release();
   if (watch->state() == TrialWatch::State::Over) return end();
   if (state == State::Seeking || state == State::Holding) hold();
   light(watch->lit());
@@ -327,13 +328,23 @@ bool TrialStage::take_beep() { return std::exchange(parts_->beep, false); }
 
 double TrialStage::hold_left() const { return parts_->watch ? parts_->watch->hold_left() : 0.0; }
 
+bool TrialStage::awaits_ear() const {
+  return parts_->state == State::Holding && hold_left() <= 0.0 && parts_->hears && !parts_->ear->is_ready();
+}
+
 base::Vector3 TrialStage::start() const {
   return parts_->watch ? parts_->watch->goal().start : base::Vector3(base::Vector3::Zero());
 }
 
 const std::vector<SaidInTrial>& TrialStage::said() const { return parts_->said; }
 
-void TrialStage::listen_to(speech::OpenSource microphone) { parts_->microphone = std::move(microphone); }
+void TrialStage::listen_to(speech::OpenSource microphone) {
+  parts_->microphone = std::move(microphone);
+  const std::vector<std::string> needs = all_needs(parts_->study);
+  if (std::ranges::find(needs, "speech") == needs.end()) return;
+  // The recogniser takes some seconds to come, in which people read.
+  parts_->ear = std::make_unique<TrialEar>(parts_->microphone);
+}
 
 const TrialMeasures& TrialStage::measures() const { return parts_->measures; }
 

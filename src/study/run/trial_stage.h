@@ -28,7 +28,8 @@ class TrialStage {
              const Participant& participant);
   ~TrialStage();
 
-  /// The microphone by which things are chosen in trials that need speech; the usual one at first.
+  /// The microphone by which things are chosen in trials that need speech; the usual one at first. Where the
+  /// study has such trials, what recognises speech is loaded from now on.
   void listen_to(speech::OpenSource microphone);
   /// Sets the look of the session; the start is marked in it while it is sought.
   void set_look(const session::DisplayWish& look);
@@ -46,6 +47,8 @@ class TrialStage {
   bool take_beep();
   /// The time until the pointer is released, s; while Holding.
   double hold_left() const;
+  /// Is only the microphone still to be heard, while Holding?
+  bool awaits_ear() const;
   /// The place that the pointer is to be brought to, m, stage frame; while Seeking.
   base::Vector3 start() const;
   const TrialMeasures& measures() const;

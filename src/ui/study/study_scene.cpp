@@ -71,11 +71,11 @@ void StudyScene::say(const QString& what, bool loud) {
   line_->setForegroundRole(loud ? QPalette::HighlightedText : QPalette::WindowText);
 }
 
-void StudyScene::say_what_to_do(double hold_left) {
-  if (state_ == State::Loading) return say(words_(StudyWord::Loading), false);
+void StudyScene::say_what_to_do(const study::TrialStage& stage) {
+  if (state_ == State::Loading || stage.awaits_ear()) return say(words_(StudyWord::Loading), false);
   if (state_ == State::Seeking) return say(words_(StudyWord::BringPointer), false);
   if (state_ == State::Holding)
-    return say(words_(StudyWord::HoldStill).arg(int(std::ceil(hold_left))), false);
+    return say(words_(StudyWord::HoldStill).arg(int(std::ceil(stage.hold_left()))), false);
   const bool flashes = state_ == State::Running && started_.elapsed() < kFlash;
   say(flashes ? words_(StudyWord::Start) : QString(), flashes);
 }
@@ -88,7 +88,7 @@ void StudyScene::show_stage(const study::TrialStage& stage) {
     if (state_ == State::Seeking || state_ == State::Holding) put_mouse(stage.start());
     tools_.touch_tool().go_freely(state_ == State::Running ? std::optional(stage.start()) : std::nullopt);
   }
-  say_what_to_do(stage.hold_left());
+  say_what_to_do(stage);
 }
 
 /// Moves the mouse to where `place` is seen; without effect where the display does not allow it.

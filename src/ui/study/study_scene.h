@@ -32,7 +32,7 @@ class StudyScene final : public QWidget {
 
  private:
   void say(const QString& what, bool loud);
-  void say_what_to_do(double hold_left);
+  void say_what_to_do(const study::TrialStage& stage);
   void put_mouse(const base::Vector3& place);
 
   session::Session& session_;
