@@ -24,6 +24,8 @@ class SoundOutput {
   void stop();
   /// Is something played, or about to be?
   bool is_playing() const;
+  /// Was the last sound not heard to its end, as the output is lost or suspended? Then open another.
+  bool is_lost() const;
 
  private:
   struct Parts;

@@ -185,8 +185,8 @@ Result<void> listen(const ListenOptions& options, StatusLine& status) {
   if (!out.empty())
     if (const auto able = files::check_can_write(out); !able) return able;
   std::optional<speech::WakeWord> wake_word;
-  if (!options.wake_word.empty()) {
-    auto word = speech::WakeWord::of(options.wake_word);
+  if (options.wake_word) {
+    auto word = speech::WakeWord::of(*options.wake_word);
     if (!word) return base::fail("--wake-word: " + word.error().message);
     wake_word = std::move(*word);
   }

@@ -44,10 +44,10 @@ struct ListenOptions {
   bool apply = false;                             // do what was understood
   std::filesystem::path out;                      // empty: over the design, where it is a file
   bool force = false;
-  std::string wake_word;              // that begins what is meant; empty: all is meant
-  bool speak = false;                 // the replies
-  double hang = 0.4;                  // s of silence that end an utterance
-  std::optional<double> least_score;  // none: the usual one
+  std::optional<std::string> wake_word;  // that begins what is meant; none: all is meant
+  bool speak = false;                    // the replies
+  double hang = 0.4;                     // s of silence that end an utterance
+  std::optional<double> least_score;     // none: the usual one
 };
 
 /// The options of the commands of speech; a command that was not given leaves nothing.

@@ -13,7 +13,7 @@ namespace {
 using base::Result;
 using speech::Dialogue;
 
-constexpr std::uint32_t kTalkButton = 1U << 1U;
+constexpr int kTalkButton = 1;
 constexpr const char* kBusy = "something else in the window must be finished first";
 
 /// The world of a session, each sentence an action of its history.
@@ -99,12 +99,21 @@ struct Conversation::Parts {
     return ways.wake_word && ways.attention == speech::Attention::Always ? &*ways.wake_word : nullptr;
   }
 
+  /// Of a hand that is there, whose clutch it is not.
+  bool is_button_down(std::size_t hand) const {
+    const PointerView& pointer = session.hands().pointer(hand);
+    if (pointer.status == devices::DeviceStatus::Lost || (pointer.buttons >> kTalkButton & 1U) == 0)
+      return false;
+    const auto mapping = session.hands().use(hand).mapping;
+    return !mapping || mapping->clutch_button != kTalkButton;
+  }
+
   /// Is the button by which a hand talks down?
   bool is_button_down() const {
     const SessionHands& hands = session.hands();
     if (session.techniques().current()) return false;
     for (std::size_t i = 0; i < hands.pointers(); ++i)
-      if (hands.mouse() != i && (hands.pointer(i).buttons & kTalkButton) != 0) return true;
+      if (hands.mouse() != i && is_button_down(i)) return true;
     return false;
   }
 
@@ -225,7 +234,7 @@ void Conversation::on_answer(std::function<void(const Spoken&)> listener) {
 const std::vector<world::ObjectId>& Conversation::candidates() const { return parts_->candidates; }
 
 std::string Conversation::problem() const {
-  if (!parts_->words.second.empty() || !parts_->speaker) return parts_->words.second;
+  if (!parts_->words.second.empty() || !parts_->speaker || !parts_->ways.speaks) return parts_->words.second;
   return parts_->speaker->problem();
 }
 

@@ -22,11 +22,12 @@ namespace {
 
 /// What comes of an utterance by the wake word alone; none: it is a sentence for the dialogue, which is left
 /// in `heard`.
-std::optional<UnderstoodUtterance> answer_of(WakeWord& wake_word, std::vector<Heard>& heard, double begin,
-                                             double end) {
+std::optional<UnderstoodUtterance> answer_of(WakeWord& wake_word, const HearingLimits& limits,
+                                             std::vector<Heard>& heard, double begin, double end) {
   UnderstoodUtterance understood;
   if (!heard.empty()) understood.heard = heard.front();
   if (understood.heard) understood.answer.heard = understood.heard->sentence();
+  std::erase_if(heard, [&](const Heard& one) { return one.score < limits.least_score; });
   WakeWord::Meant meant = wake_word.meant(std::move(heard), begin, end);
   heard = std::move(meant.sentences);
   if (meant.is_meant && !meant.is_called) return std::nullopt;
@@ -45,7 +46,7 @@ std::optional<UnderstoodUtterance> answer_of(WakeWord& wake_word, std::vector<He
 UnderstoodUtterance understand_utterance(Dialogue& dialogue, std::vector<Heard> heard, double begin,
                                          double end, const HearingLimits& limits, WakeWord* wake_word) {
   if (wake_word != nullptr)
-    if (auto answer = answer_of(*wake_word, heard, begin, end)) return std::move(*answer);
+    if (auto answer = answer_of(*wake_word, limits, heard, begin, end)) return std::move(*answer);
   dialogue.vocabulary();  // brings up to date what can be said
   UnderstoodUtterance understood;
   if (const Heard* const meant = likely_meant(heard, dialogue, limits)) {
@@ -53,7 +54,8 @@ UnderstoodUtterance understand_utterance(Dialogue& dialogue, std::vector<Heard> 
     for (const HeardWord& word : meant->words) times.words.push_back(begin + word.begin);
     understood.answer = dialogue.hear(meant->sentence(), times);
     understood.heard = *meant;
-    if (wake_word != nullptr && dialogue.asks()) wake_word->stay_awake(end);
+    // One sentence for each call; what is asked back is answered without the word.
+    if (wake_word != nullptr) dialogue.asks() ? wake_word->stay_awake(end) : wake_word->fall_asleep();
     return understood;
   }
   if (!heard.empty()) understood.heard = heard.front();

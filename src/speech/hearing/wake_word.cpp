@@ -64,7 +64,6 @@ WakeWord::Meant WakeWord::meant(std::vector<Heard> heard, double begin, double e
     if (is_addressed) one.words.erase(one.words.begin(), one.words.begin() + std::ptrdiff_t(words_.size()));
     if (!one.words.empty()) meant.sentences.push_back(std::move(one));
   }
-  awake_until_ = kNever;  // one sentence for each call
   return meant;
 }
 

@@ -31,6 +31,8 @@ class WakeWord {
   Meant meant(std::vector<Heard> heard, double begin, double end);
   /// The next sentence needs no word, if it begins within kAwake s after `time`: a question was asked.
   void stay_awake(double time) { awake_until_ = time + kAwake; }
+  /// The next sentence needs the word again.
+  void fall_asleep() { awake_until_ = kNever; }
   bool is_awake(double time) const { return time <= awake_until_; }
   static constexpr double kAwake = 8.0;  // s
 

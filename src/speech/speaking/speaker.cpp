@@ -35,6 +35,7 @@ class SystemLoudspeaker final : public Loudspeaker {
   void play(SpokenSentence sentence) override { output_->play(std::move(sentence.samples)); }
   void stop() override { output_->stop(); }
   bool is_playing() const override { return output_->is_playing(); }
+  bool is_lost() const override { return output_->is_lost(); }
 
  private:
   std::unique_ptr<sound::SoundOutput> output_;
@@ -121,6 +122,9 @@ void Speaker::speak(const std::string& sentence, const std::stop_token& stop) {
     waits_.wait_for(lock, stop, kLook, [this] { return told_.has_value(); });
   loudspeaker_->stop();
   spoken_at_ = now();
+  if (!loudspeaker_->is_lost()) return;
+  problem_ = "The sound output was lost; the next reply looks for it again.";
+  loudspeaker_.reset();
 }
 
 }  // namespace icome::speech

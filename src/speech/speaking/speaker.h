@@ -32,6 +32,8 @@ class Loudspeaker {
   virtual void play(SpokenSentence sentence) = 0;
   virtual void stop() = 0;
   virtual bool is_playing() const = 0;
+  /// Is it of no more use, so that another one is to be opened?
+  virtual bool is_lost() const { return false; }
 };
 /// Opens a loudspeaker for a rate. Fails where there is none, saying what to do.
 using OpenLoudspeaker = std::function<base::Result<std::unique_ptr<Loudspeaker>>(int rate)>;

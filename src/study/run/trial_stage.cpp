@@ -200,10 +200,10 @@ base::Result<void> TrialStage::Parts::listen(const TrialGoal& goal) {
   return ear->expect(goal);
 }
 
-/// Lets what was said choose. What was begun before the start is kept, and chooses nothing.
+/// Lets what was said since the start choose. What was begun before it is kept, and chooses nothing.
 void TrialStage::Parts::hear_choices() {
   if (const std::string problem = ear->problem(); !problem.empty())
-    return fail("Nothing can be heard: " + problem + ".");
+    return fail("Nothing can be heard: " + problem + (problem.ends_with('.') ? "" : "."));
   for (SaidInTrial& one : ear->take()) {
     if (state != State::Running) continue;
     one.begin -= released_at;

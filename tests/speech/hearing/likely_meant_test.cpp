@@ -74,11 +74,16 @@ TEST_F(LikelyMeant, IsDoneAfterTheWakeWordOnly) {
   EXPECT_EQ(overheard.answer.reply, "That was not said to me: begin with \"computer\".");
   EXPECT_EQ(understand("computer", 10.0).answer.reply, "Yes?");
   EXPECT_TRUE(understand("a blue cone", 13.0).answer.accepted());
+  EXPECT_FALSE(understand("a red cone", 15.0).is_addressed);  // one sentence for each call
   EXPECT_TRUE(understand("computer a green cone", 30.0).answer.accepted());
   EXPECT_EQ(design_.world().objects().size(), 3U);
   // What is asked back is answered without the word.
   EXPECT_EQ(understand("computer select the cone", 50.0).answer.state, Answer::State::Asked);
+  EXPECT_FALSE(understand_utterance(dialogue_, {}, 52.0, 52.2, {}, &word).answer.accepted());  // a noise
   EXPECT_TRUE(understand("the blue one", 53.0).answer.accepted());
+  // A word that only sounds like it does not count.
+  EXPECT_FALSE(
+      understand_utterance(dialogue_, {heard("computer", 0.0, -7.5)}, 70.0, 71.0, {}, &word).is_addressed);
 }
 
 TEST_F(LikelyMeant, IsHeardWithAPauseInIt) {
