@@ -121,6 +121,26 @@ class MicrophoneTest(unittest.TestCase):
         listening.send_signal(signal.SIGINT)
         self.assertEqual(listening.wait(PATIENCE), 0)
 
+    def test_a_suspended_output_is_told_and_holds_nothing_up(self):
+        self.ask("pactl", "load-module", "module-null-sink", "sink_name=mouth")
+        self.ask("pactl", "set-default-sink", "mouth")
+        self.ask("pactl", "suspend-sink", "mouth", "1")
+        out, errors = self.at / "out.jsonl", self.at / "errors"
+        with out.open("w") as answers, errors.open("w") as told:
+            listening = subprocess.Popen([PROGRAM, "listen", "--json", "--apply", "--speak"], stdout=answers, stderr=told,
+                                         env=self.environment, cwd=self.at)
+        self.addCleanup(listening.kill)
+        recording = self.at / "said.wav"
+        self.ask("espeak-ng", "-v", "en-us", "-w", str(recording), "create a small red sphere")
+        wait_for("listening", lambda: "listening" in errors.read_text())
+        for count in (1, 2):  # it hears again
+            self.ask("paplay", "--device=ears", str(recording))
+            wait_for("the sphere", lambda: out.read_text().count("\n") >= count)
+            wait_for("what is wrong", lambda: errors.read_text().count("sound output was lost") >= count)
+            time.sleep(1)  # what was spoken may come back until then
+        listening.send_signal(signal.SIGINT)
+        self.assertEqual(listening.wait(PATIENCE), 0)
+
 
 if __name__ == "__main__":
     unittest.main()
