@@ -33,11 +33,10 @@ base::Result<snd_pcm_t*> open_alsa(int rate) {
     if (error == 0) return sound;
     snd_pcm_close(sound);
   }
-  return base::fail(
-      fmt::format("The sound output cannot be used ({}). Check with `speaker-test -t sine -l 1`; on "
-                  "PipeWire, install the "
-                  "package pipewire-alsa.",
-                  snd_strerror(error)));
+  return base::fail(fmt::format(
+      "The sound output cannot be used ({}). Check with `speaker-test -t sine -l 1`; on PipeWire, "
+      "install the package pipewire-alsa.",
+      snd_strerror(error)));
 }
 
 }  // namespace
@@ -87,7 +86,7 @@ bool SoundOutput::Parts::write(std::span<const std::int16_t> samples, const std:
   return true;
 }
 
-/// Waits until all is heard; false where that takes a second longer than it may.
+/// Waits until all is heard; false where the output plays nothing, as a suspended one does.
 bool SoundOutput::Parts::finish(const std::stop_token& end) const {
   // A short sound has not filled the buffer, which would have begun it.
   if (snd_pcm_state(sound) == SND_PCM_STATE_PREPARED) snd_pcm_start(sound);
@@ -102,7 +101,7 @@ bool SoundOutput::Parts::finish(const std::stop_token& end) const {
   return is_stopped(end);
 }
 
-/// False where the output is lost.
+/// Plays the samples until they end or others are wanted; false where the output is lost.
 bool SoundOutput::Parts::play(std::span<const std::int16_t> samples, const std::stop_token& end) const {
   snd_pcm_drop(sound);
   if (samples.empty()) return true;

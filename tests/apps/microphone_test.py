@@ -118,6 +118,7 @@ class MicrophoneTest(unittest.TestCase):
         spoken = array.array("h", sound.read_bytes()[before // 2 * 2:][: 2 * 16000 * 4])
         self.assertGreater(max(map(abs, spoken)), 1000, "nothing was spoken")
         self.assertEqual(len(heard()), 2, heard()[2:])
+        self.assertNotIn("lost", errors.read_text())
         listening.send_signal(signal.SIGINT)
         self.assertEqual(listening.wait(PATIENCE), 0)
 

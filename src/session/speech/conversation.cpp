@@ -99,7 +99,7 @@ struct Conversation::Parts {
     return ways.wake_word && ways.attention == speech::Attention::Always ? &*ways.wake_word : nullptr;
   }
 
-  /// Of a hand that is there, whose clutch it is not.
+  /// Is the button to talk with down at this hand? It counts where the hand is there, and is not its clutch.
   bool is_button_down(std::size_t hand) const {
     const PointerView& pointer = session.hands().pointer(hand);
     if (pointer.status == devices::DeviceStatus::Lost || (pointer.buttons >> kTalkButton & 1U) == 0)
@@ -108,7 +108,7 @@ struct Conversation::Parts {
     return !mapping || mapping->clutch_button != kTalkButton;
   }
 
-  /// Is the button by which a hand talks down?
+  /// Does any hand talk? A technique travels with that button.
   bool is_button_down() const {
     const SessionHands& hands = session.hands();
     if (session.techniques().current()) return false;

@@ -20,7 +20,7 @@ const Heard* likely_meant(const std::vector<Heard>& heard, Dialogue& dialogue, c
 
 namespace {
 
-/// What comes of an utterance by the wake word alone; none: it is a sentence for the dialogue, which is left
+/// The answer that follows from the wake word alone; none: it is a sentence for the dialogue, which is left
 /// in `heard`.
 std::optional<UnderstoodUtterance> answer_of(WakeWord& wake_word, const HearingLimits& limits,
                                              std::vector<Heard>& heard, double begin, double end) {

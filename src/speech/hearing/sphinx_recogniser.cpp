@@ -203,7 +203,7 @@ class SphinxRecogniser final : public Recogniser {
       ps_nbest_t* const next = ps_nbest_next(paths.release());
       paths.reset(next);
     }
-    // Where somebody paused between two words the likeliest of all is not among them.
+    // The library leaves the likeliest of all out of them where somebody paused between two words.
     Heard first{words_of(ps_seg_iter(decoder_.get()))};
     first.score = fit;
     if (!tried.contains(first.sentence()) && is_sentence(first)) all.insert(all.begin(), std::move(first));

@@ -20,14 +20,14 @@ class WakeWord {
   Grammar with_word(const Grammar& grammar, const HeardRules& rules) const;
   static constexpr HeardRules kRules{"addressed-sentence", "usual-addressed-sentence"};
 
-  /// What was meant for the program.
+  /// The part of an utterance that was meant for the program.
   struct Meant {
     std::vector<Heard> sentences = {};  // without the word; none: not a sentence
     bool is_called = false;             // the word alone was said
     bool is_meant = false;              // false: people talk with each other
   };
-  /// Of the sentences that may have been said in an utterance (the likeliest first) those that were meant; it
-  /// began at `begin` and ended at `end`, s.
+  /// Picks the sentences that were meant from those that may have been said (the likeliest first). The
+  /// utterance began at `begin` and ended at `end`, s.
   Meant meant(std::vector<Heard> heard, double begin, double end);
   /// The next sentence needs no word, if it begins within kAwake s after `time`: a question was asked.
   void stay_awake(double time) { awake_until_ = time + kAwake; }

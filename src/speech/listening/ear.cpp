@@ -102,7 +102,7 @@ void Ear::run(const std::stop_token& stop) {
   }
 }
 
-/// What was heard of a source since it was opened, or since the ear was muted.
+/// All that was heard of a source since it was opened, or since the ear was muted.
 struct Ear::Hearing {
   explicit Hearing(const VoiceSettings& voice) : activity(voice), held(voice) {}
 

@@ -34,7 +34,7 @@ struct EarState {
   std::vector<std::string> silent = {};   // words that cannot be heard, as they have no sounds
 };
 
-/// What an ear takes for spoken to it.
+/// Says which speech an ear takes for spoken to it.
 enum class Attention : std::uint8_t {
   Always,     // whatever is said
   WhileHeld,  // what is said while a key is held down
@@ -71,7 +71,7 @@ class Ear {
     std::string sentence, usual;
   };
 
-  /// What is told from outside.
+  /// The settings that its owner changes while it listens.
   struct Wishes {
     Attention attention = Attention::Always;
     bool is_held = false, is_muted = false;

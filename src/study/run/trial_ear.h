@@ -34,7 +34,7 @@ class TrialEar {
   bool is_ready() const;
   /// Why it hears nothing, a sentence; empty: it does, or is not ready yet.
   std::string problem() const { return ear_.state().problem; }
-  /// What was said since the last call and is a choice of the trial.
+  /// The utterances since the last call that may be choices of the trial.
   std::vector<SaidInTrial> take();
 
  private:

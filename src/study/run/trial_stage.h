@@ -52,7 +52,7 @@ class TrialStage {
   /// The place that the pointer is to be brought to, m, stage frame; while Seeking.
   base::Vector3 start() const;
   const TrialMeasures& measures() const;
-  /// What was said in a trial that is Over; times count from its start.
+  /// The utterances of a trial that is Over; their times count from its start.
   const std::vector<SaidInTrial>& said() const;
   const Trace& trace() const;
   const std::string& why() const;

@@ -77,7 +77,7 @@ TEST_F(LikelyMeant, IsDoneAfterTheWakeWordOnly) {
   EXPECT_FALSE(understand("a red cone", 15.0).is_addressed);  // one sentence for each call
   EXPECT_TRUE(understand("computer a green cone", 30.0).answer.accepted());
   EXPECT_EQ(design_.world().objects().size(), 3U);
-  // What is asked back is answered without the word.
+  // A question is answered without the word.
   EXPECT_EQ(understand("computer select the cone", 50.0).answer.state, Answer::State::Asked);
   EXPECT_FALSE(understand_utterance(dialogue_, {}, 52.0, 52.2, {}, &word).answer.accepted());  // a noise
   EXPECT_TRUE(understand("the blue one", 53.0).answer.accepted());

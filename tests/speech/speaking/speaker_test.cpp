@@ -11,7 +11,7 @@
 namespace icome::speech {
 namespace {
 
-/// What loudspeakers were told.
+/// Keeps what loudspeakers were told.
 struct Played {
   std::atomic<int> sentences = 0, stops = 0;
   std::atomic<std::size_t> samples = 0;  // of the last
@@ -55,7 +55,7 @@ TEST(SpokenSentence, LastsAsLongAsPeopleTakeForIt) {
   const auto longer =
       spoken_sentence("Small red cone, left of the box, which is behind the large green sphere.");
   EXPECT_GT(longer->samples.size(), spoken->samples.size() * 3 / 2);
-  // The same library gives sounds of words.
+  // Sounds of words come from that library too.
   EXPECT_EQ(sounds_of_word("cat"), "K AE T");
 }
 
