@@ -76,7 +76,8 @@ struct Conversation::Parts {
     if (!spoken.answer.operations.empty() && !spoken.answer.objects.empty())
       session.select(spoken.answer.objects);
     is_new = true;
-    if (ways.speaks && !spoken.answer.reply.empty()) speak(spoken.answer.reply);
+    // Nobody is talked over who holds the key.
+    if (ways.speaks && !is_held && !spoken.answer.reply.empty()) speak(spoken.answer.reply);
     listener(spoken);
   }
 
