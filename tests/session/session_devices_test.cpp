@@ -200,9 +200,9 @@ TEST(SessionDevices, AnotherMappingKeepsThePlaceOfThePointerAndBeginsSoftly) {
   devices::DeviceMapping mapping;
   mapping.scale = 3.0;
   mapping.max_force = 0.5;
+  const std::size_t before = seen->so_far().size();
   ASSERT_TRUE(session->hands().set_mapping(0, mapping));
   EXPECT_EQ(session->hands().use(0).mapping->scale, 3.0);
-  const std::size_t before = seen->so_far().size();
   const auto there = [&] {
     return (session->hands().pointer(0).device_from_stylus.translation() - 3.0 * place).norm() < 1e-9;
   };
