@@ -10,14 +10,36 @@ option(ICOME_BUILD_BENCHMARKS "Build the benchmarks" OFF)
 option(ICOME_OPTIMISE_BENCHMARKS "Optimise the benchmarks' own sources; off where they are compiled but not run" ON)
 option(ICOME_WARNINGS_AS_ERRORS "A compiler warning fails the build (what `make test` asks for)" OFF)
 set(ICOME_BATCH 0 CACHE STRING "How many sources one compiler run takes at most; 0: each by itself")
+option(ICOME_CHECK_NAMES "Names, and what else .clang-tidy asks for, are checked while compiling (clang only)" OFF)
 set(ICOME_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, such as address,undefined")
 
 # The cache is shared by every clone on the machine: paths count from the source tree, and the
 # directory that a compiler runs in is not part of what it made.
+set(in_cache CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1)
+if(ICOME_CHECK_NAMES)
+  # Another table or plug-in is another name, so that all is compiled again. The compiler cache goes by what the
+  # plug-in is made of, as each clone makes it anew.
+  set(names_by ${PROJECT_SOURCE_DIR}/.clang-tidy ${PROJECT_SOURCE_DIR}/tools/names_plugin.cpp)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${names_by})
+  set(hashes "")
+  foreach(file IN LISTS names_by)
+    file(SHA1 ${file} hash)
+    string(APPEND hashes ${hash})
+  endforeach()
+  string(SHA1 hash "${hashes}")
+  string(SUBSTRING ${hash} 0 8 hash)
+  set(plugin ${PROJECT_BINARY_DIR}/names_plugin_${hash}.so)
+  if(NOT EXISTS ${plugin})
+    message(STATUS "Making the plug-in that checks names")
+    execute_process(COMMAND ${PROJECT_SOURCE_DIR}/tools/check-names --make-plugin ${plugin} COMMAND_ERROR_IS_FATAL ANY)
+  endif()
+  add_compile_options(-fplugin=${plugin})
+  string(REPLACE ";" ":" names_by "${names_by}")
+  list(APPEND in_cache CCACHE_IGNOREOPTIONS=-fplugin=* CCACHE_EXTRAFILES=${names_by})
+endif()
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  set(CMAKE_CXX_COMPILER_LAUNCHER
-      env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${CCACHE_PROGRAM})
+  set(CMAKE_CXX_COMPILER_LAUNCHER env ${in_cache} ${CCACHE_PROGRAM})
 endif()
 
 add_compile_options(-Wall -Wextra -Wshadow -Wno-psabi)
