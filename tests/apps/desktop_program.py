@@ -104,14 +104,19 @@ class MainThreadWatch(threading.Thread):
         return self.longest
 
 
+# Shaders are compiled once, not in each home: that takes a second of a processor each time.
+SHADERS = os.environ.get("MESA_SHADER_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache"
+
+
 class Desktop:
-    """The program with its window. Its home is a folder of the test's own."""
+    """The program with its window. Its home is a folder of the test's own, but for compiled shaders."""
 
     def __init__(self, screen, home, *arguments, environment=None, before=()):
         self.screen = screen
         mine = {"HOME": home, "XDG_CONFIG_HOME": home / "config", "XDG_DATA_HOME": home / "data",
                 "XDG_CACHE_HOME": home / "cache", "XDG_STATE_HOME": home / "state", "XDG_RUNTIME_DIR": home / "run",
-                "LIBGL_ALWAYS_SOFTWARE": "1", "DBUS_SESSION_BUS_ADDRESS": "disabled:", "QT_QPA_PLATFORM": "xcb"}
+                "MESA_SHADER_CACHE_DIR": SHADERS, "LIBGL_ALWAYS_SOFTWARE": "1",
+                "DBUS_SESSION_BUS_ADDRESS": "disabled:", "QT_QPA_PLATFORM": "xcb"}
         (home / "run").mkdir(parents=True, exist_ok=True, mode=0o700)
         self.log = home / "log.txt"
         with self.log.open("ab") as log:
