@@ -320,9 +320,27 @@ base::Result<void> check_begun(const StudyOptions& options) {
   return base::fail(fmt::format("{}: there are no data; begin with icome study run.", folder.string()));
 }
 
+/// The microphone of trials that need speech. Fails where it cannot be heard, and where it is named for
+/// nothing.
+base::Result<speech::OpenSource> microphone_of(const StudyOptions& options, const study::Study& study) {
+  const std::vector<std::string> needs = study::all_needs(study);
+  if (std::ranges::find(needs, "speech") == needs.end()) {
+    if (options.microphone.empty()) return speech::OpenSource();
+    return base::fail("--microphone is for studies that need speech, and this one does not.");
+  }
+  speech::OpenSource source = speech::source_of(options.microphone);
+  if (const auto heard = source(); !heard)
+    return base::fail(
+        fmt::format("{}: what is said in trials cannot be heard; --microphone names another one.",
+                    heard.error().message));
+  return source;
+}
+
 int run_person(int argc, char** argv, const StudyOptions& options, const OpenedStudy& opened) {
   StatusLine status;
   if (const auto begun = check_begun(options); !begun) return end_without_result(begun.error(), status);
+  auto microphone = microphone_of(options, opened.study);
+  if (!microphone) return end_without_result(microphone.error(), status);
   catch_interrupts();
   auto settings = session_settings(options.devices);
   if (!settings) return end_without_result(settings.error(), status);
@@ -330,7 +348,7 @@ int run_person(int argc, char** argv, const StudyOptions& options, const OpenedS
   const std::string devices = names_of(*settings);
   ui::StudyWindowOptions window;
   window.full_screen = !options.in_window;
-  window.microphone = speech::source_of(options.microphone);
+  window.microphone = std::move(*microphone);
   window.interrupted = [] { return interrupted(); };
   std::string id;
   std::optional<study::DataFolder> data;  // opened once there is a display, without which nothing begins

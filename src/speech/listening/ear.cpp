@@ -1,17 +1,16 @@
 #include "speech/listening/ear.h"
 
-#include <algorithm>
 #include <chrono>
-#include <limits>
 #include <utility>
 
 #include "speech/hearing/held_speech.h"
+#include "speech/listening/sample_clock.h"
 
 namespace icome::speech {
 namespace {
 
-constexpr double kStep = 0.02;     // s, between two looks at the source
-constexpr double kPatience = 2.0;  // s, until a lost source is looked for again
+constexpr double kStep = 0.02;           // s, between two looks at the source
+constexpr std::size_t kMostWaiting = 4;  // utterances; where it is too slow, nobody waits for older ones
 
 }  // namespace
 
@@ -23,11 +22,12 @@ Ear::Ear(OpenSource open, MakeRecogniser make, const VoiceSettings& voice)
     : open_(std::move(open)),
       make_(std::move(make)),
       voice_(voice),
-      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+      listening_([this](const std::stop_token& stop) { listen(stop); }),
+      recognising_([this](const std::stop_token& stop) { recognise(stop); }) {}
 
 Ear::~Ear() {
-  thread_.request_stop();
-  waits_.notify_all();
+  listening_.request_stop();
+  recognising_.request_stop();
 }
 
 template <typename Change>
@@ -59,6 +59,7 @@ Ear::Wishes Ear::wishes() const {
 void Ear::expect(Grammar grammar, std::string sentence, std::string usual) {
   const std::lock_guard lock(mutex_);
   expected_ = Expected{std::move(grammar), std::move(sentence), std::move(usual)};
+  waits_.notify_all();
 }
 
 std::vector<HeardUtterance> Ear::take() {
@@ -68,7 +69,11 @@ std::vector<HeardUtterance> Ear::take() {
 
 EarState Ear::state() const {
   const std::lock_guard lock(mutex_);
-  return state_;
+  EarState state = state_;
+  if (state.problem.empty()) state.problem = no_words_;
+  const bool understands = is_understanding_ || !cut_.empty();
+  if (understands && state.doing == EarState::Doing::Listening) state.doing = EarState::Doing::Understanding;
+  return state;
 }
 
 void Ear::pause(double seconds, const std::stop_token& stop) {
@@ -76,27 +81,25 @@ void Ear::pause(double seconds, const std::stop_token& stop) {
   waits_.wait_for(lock, stop, std::chrono::duration<double>(seconds), [] { return false; });
 }
 
-void Ear::run(const std::stop_token& stop) {
-  const auto recogniser = make_();
-  if (!recogniser)
-    return change([&](EarState& state) {
-      state.doing = EarState::Doing::Lost;
-      state.problem = recogniser.error().message;
-    });
-  while (!knows_ && !stop.stop_requested()) {
-    follow(**recogniser);
-    if (!knows_) pause(kStep, stop);
+void Ear::lose(const std::string& why) {
+  change([&](EarState& state) {
+    state.doing = EarState::Doing::Lost;
+    state.problem = why;
+  });
+}
+
+/// The listening thread, which begins once there is something to be understood.
+void Ear::listen(const std::stop_token& stop) {
+  {
+    std::unique_lock lock(mutex_);
+    waits_.wait(lock, stop, [&] { return knows_; });
   }
   while (!stop.stop_requested()) {
-    auto source = open_();
-    if (source) {
+    if (auto source = open_()) {
       change([](EarState& state) { state.problem.clear(); });
-      listen(**source, **recogniser, stop);
+      listen_to(**source, stop);
     } else {
-      change([&](EarState& state) {
-        state.doing = EarState::Doing::Lost;
-        state.problem = source.error().message;
-      });
+      lose(source.error().message);
     }
     if (!stop.stop_requested()) pause(kPatience, stop);
   }
@@ -109,15 +112,14 @@ struct Ear::Hearing {
   VoiceActivity activity;
   HeldSpeech held;
   std::size_t samples = 0;
-  /// s, of the first sample: samples come late, not early.
-  double clock = std::numeric_limits<double>::infinity();
+  SampleClock clock;
 };
 
-void Ear::listen(SoundSource& source, Recogniser& recogniser, const std::stop_token& stop) {
+/// Until the source is lost.
+void Ear::listen_to(SoundSource& source, const std::stop_token& stop) {
   VoiceSettings voice = voice_;
   std::optional<Hearing> hearing;  // none: muted
-  while (!stop.stop_requested()) {
-    follow(recogniser);
+  for (; !stop.stop_requested(); pause(kStep, stop)) {
     const auto came = read(source);
     if (!came) return;
     const Wishes wished = wishes();
@@ -125,13 +127,10 @@ void Ear::listen(SoundSource& source, Recogniser& recogniser, const std::stop_to
       if (hearing) voice.first_noise = hearing->activity.noise_level();
       hearing.reset();
       change([](EarState& state) { state.doing = EarState::Doing::Muted; });
-      pause(kStep, stop);
       continue;
     }
     if (!hearing) hearing.emplace(voice);
-    const std::vector<Utterance> utterances = hear(*hearing, *came, wished);
-    for (const Utterance& utterance : utterances) understand(recogniser, utterance, hearing->clock);
-    if (utterances.empty()) pause(kStep, stop);
+    hear(*hearing, *came, wished);
   }
 }
 
@@ -139,17 +138,14 @@ void Ear::listen(SoundSource& source, Recogniser& recogniser, const std::stop_to
 std::optional<std::vector<std::int16_t>> Ear::read(SoundSource& source) {
   auto came = source.read();
   if (came) return std::move(*came);
-  change([&](EarState& state) {
-    state.doing = EarState::Doing::Lost;
-    state.problem = came.error().message;
-  });
+  lose(came.error().message);
   return std::nullopt;
 }
 
-/// The utterances that end with these samples.
-std::vector<Utterance> Ear::hear(Hearing& hearing, Sound samples, const Wishes& wishes) {
+/// Leaves the utterances that end with these samples to the recogniser.
+void Ear::hear(Hearing& hearing, Sound samples, const Wishes& wishes) {
   hearing.samples += samples.size();
-  hearing.clock = std::min(hearing.clock, clock_of_ears() - double(hearing.samples) / kSampleRate);
+  hearing.clock.came(hearing.samples, clock_of_ears());
   std::vector<Utterance> utterances = hearing.activity.hear(samples);
   bool is_hearing = hearing.activity.is_speaking();
   if (auto held = hearing.held.hear(samples, wishes.is_held); wishes.attention == Attention::WhileHeld) {
@@ -158,37 +154,61 @@ std::vector<Utterance> Ear::hear(Hearing& hearing, Sound samples, const Wishes& 
     is_hearing = hearing.held.is_taking();
   }
   change([&](EarState& state) {
-    state.doing = !utterances.empty() ? EarState::Doing::Understanding
-                  : is_hearing        ? EarState::Doing::Hearing
-                                      : EarState::Doing::Listening;
+    state.doing = is_hearing ? EarState::Doing::Hearing : EarState::Doing::Listening;
     state.level = hearing.activity.level();
     state.noise = hearing.activity.noise_level();
+    for (Utterance& it : utterances) cut_.push_back({std::move(it), hearing.clock.first(), clock_of_ears()});
+    while (cut_.size() > kMostWaiting) cut_.pop_front();
   });
-  return utterances;
+  if (!utterances.empty()) waits_.notify_all();
 }
 
-void Ear::follow(Recogniser& recogniser) {
-  std::optional<Expected> wanted;
-  {
-    const std::lock_guard lock(mutex_);
-    wanted = std::exchange(expected_, std::nullopt);
+/// The recognising thread.
+void Ear::recognise(const std::stop_token& stop) {
+  const auto recogniser = make_();
+  if (!recogniser) return lose(recogniser.error().message);
+  while (!stop.stop_requested()) {
+    if (const auto wanted = take_expected()) learn(**recogniser, *wanted);
+    if (const auto cut = next_cut(stop)) understand(**recogniser, *cut);
   }
-  if (!wanted) return;
-  auto silent = recogniser.set_grammar(wanted->grammar, {wanted->sentence, wanted->usual});
-  knows_ = knows_ || silent.has_value();
+}
+
+std::optional<Ear::Expected> Ear::take_expected() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(expected_, std::nullopt);
+}
+
+/// Waits for the next utterance; none where other words are expected first, or where it is to stop.
+std::optional<Ear::Cut> Ear::next_cut(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  is_understanding_ = false;
+  waits_.wait(lock, stop, [&] { return expected_ || !cut_.empty(); });
+  if (stop.stop_requested() || expected_ || cut_.empty()) return std::nullopt;
+  is_understanding_ = true;
+  Cut cut = std::move(cut_.front());
+  cut_.pop_front();
+  return cut;
+}
+
+void Ear::learn(Recogniser& recogniser, const Expected& wanted) {
+  auto silent = recogniser.set_grammar(wanted.grammar, {wanted.sentence, wanted.usual});
   change([&](EarState& state) {
-    state.problem = silent ? "" : silent.error().message;
+    knows_ = knows_ || silent.has_value();
+    no_words_ = silent ? "" : silent.error().message;
     if (silent) state.silent = std::move(*silent);
   });
+  waits_.notify_all();
 }
 
-void Ear::understand(Recogniser& recogniser, const Utterance& utterance, double clock) {
-  const double begun = clock_of_ears();
-  auto sentences = recogniser.recognise(utterance.samples);
-  if (!sentences) return change([&](EarState& state) { state.problem = sentences.error().message; });
+void Ear::understand(Recogniser& recogniser, const Cut& cut) {
+  auto sentences = recogniser.recognise(cut.utterance.samples);
   const std::lock_guard lock(mutex_);
-  heard_.push_back({clock + utterance.begin, clock + utterance.speech_end, std::move(*sentences),
-                    clock_of_ears() - begun});
+  if (!sentences) {
+    no_words_ = sentences.error().message;
+    return;
+  }
+  heard_.push_back({cut.clock + cut.utterance.begin, cut.clock + cut.utterance.speech_end,
+                    std::move(*sentences), clock_of_ears() - cut.at});
 }
 
 }  // namespace icome::speech

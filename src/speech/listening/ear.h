@@ -1,5 +1,6 @@
 #pragma once
 #include <condition_variable>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -40,10 +41,12 @@ enum class Attention : std::uint8_t {
   WhileHeld,  // what is said while a key is held down
 };
 
-/// Listens and recognises on a thread of its own, so that whoever owns it never waits. A source that is lost
-/// is looked for every two seconds.
+/// Listens on one thread of its own and recognises on another, so that whoever owns it never waits, and what
+/// is said while it recognises is cut as it comes. A source that is lost is looked for every kPatience.
 class Ear {
  public:
+  static constexpr double kPatience = 2.0;  // s
+
   using MakeRecogniser = std::function<base::Result<std::unique_ptr<Recogniser>>()>;
 
   Ear(OpenSource open, MakeRecogniser make, const VoiceSettings& voice = {});
@@ -77,13 +80,24 @@ class Ear {
     bool is_held = false, is_muted = false;
   };
 
-  void run(const std::stop_token& stop);
-  void listen(SoundSource& source, Recogniser& recogniser, const std::stop_token& stop);
+  /// An utterance that is still to be recognised.
+  struct Cut {
+    Utterance utterance;
+    double clock = 0.0;  // s, of the first sample of its source
+    double at = 0.0;     // s, when it had ended
+  };
+
+  void listen(const std::stop_token& stop);
+  void listen_to(SoundSource& source, const std::stop_token& stop);
   std::optional<std::vector<std::int16_t>> read(SoundSource& source);
-  std::vector<Utterance> hear(Hearing& hearing, Sound samples, const Wishes& wishes);
+  void hear(Hearing& hearing, Sound samples, const Wishes& wishes);
+  void lose(const std::string& why);
   Wishes wishes() const;
-  void follow(Recogniser& recogniser);
-  void understand(Recogniser& recogniser, const Utterance& utterance, double clock);
+  void recognise(const std::stop_token& stop);
+  std::optional<Expected> take_expected();
+  std::optional<Cut> next_cut(const std::stop_token& stop);
+  void learn(Recogniser& recogniser, const Expected& wanted);
+  void understand(Recogniser& recogniser, const Cut& cut);
   void pause(double seconds, const std::stop_token& stop);
   template <typename Change>
   void change(const Change& change);
@@ -95,10 +109,13 @@ class Ear {
   std::condition_variable_any waits_;
   Wishes wishes_;
   std::optional<Expected> expected_;  // what the recogniser does not know yet
-  bool knows_ = false;                // has the recogniser a grammar? Its thread's
-  EarState state_;
+  bool knows_ = false;                // has the recogniser a grammar?
+  EarState state_;                    // of listening
+  std::string no_words_;              // why the recogniser understands nothing; empty: it does
+  std::deque<Cut> cut_;
+  bool is_understanding_ = false;
   std::vector<HeardUtterance> heard_;
-  std::jthread thread_;  // the last one, as it uses all others
+  std::jthread listening_, recognising_;  // the last ones, as they use all others
 };
 
 }  // namespace icome::speech

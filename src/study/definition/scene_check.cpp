@@ -7,6 +7,7 @@
 
 #include "session/elements/element_picture.h"
 #include "study/definition/scene_reader.h"
+#include "study/definition/spoken_choices.h"
 #include "study/definition/study_parts.h"
 #include "study/definition/trial_draws.h"
 #include "study/definition/trial_goal.h"
@@ -27,6 +28,11 @@ class SceneChecker {
   SceneChecker(const Study& study, const std::filesystem::path& folder, StudyCheck& check)
       : study_(study), folder_(folder), check_(check), reader_(study, folder) {
     if (study.task) draws_ = possible_draws(study);
+    const auto needs_speech = [](const Level& level) {
+      return std::ranges::find(level.needs, "speech") != level.needs.end();
+    };
+    for (const IndependentVariable& factor : study.independent)
+      is_spoken_in_a_level_ |= std::ranges::any_of(factor.levels, needs_speech);
   }
 
   void go() {
@@ -73,6 +79,7 @@ class SceneChecker {
       plan.values = draw;
       const auto goal = goal_of(plan);
       if (goal) {
+        if (goal->speech || is_spoken_in_a_level_) check_said(scene, *goal);
         wrong_found_ |= std::ranges::any_of(goal->things, &Thing::wrong);
         continue;
       }
@@ -93,6 +100,13 @@ class SceneChecker {
     const auto element = reader_.element_in(plan);
     if (!element) return tl::unexpected(element.error());
     return trial_goal(study_, {}, plan, *world, *element);
+  }
+
+  /// Names that cannot be told apart by ear are told once for each scene.
+  void check_said(const TrialScene& scene, const TrialGoal& goal) {
+    const auto choices = spoken_choices(goal);
+    if (!choices && unsayable_.insert(scene.id).second)
+      refuse(scene, study_.task->place, choices.error().message);
   }
 
   void check_texts(const TrialScene& scene, const StageElement& element) {
@@ -150,6 +164,8 @@ class SceneChecker {
   StudyCheck& check_;
   SceneReader reader_;
   std::vector<std::vector<std::size_t>> draws_;  // see possible_draws()
+  bool is_spoken_in_a_level_ = false;            // are things chosen by their names, in any scene?
+  std::set<std::string> unsayable_;              // scenes whose names have been told
   bool looked_ = false;                          // a scene at least has been looked into
   bool refused_ = false;                         // a scene at least has been refused
   bool wrong_found_ = false;                     // a wrong thing, in any scene

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "speech/listening/ear.h"
-#include "study/definition/trial_goal.h"
+#include "study/definition/spoken_choices.h"
 
 namespace icome::study {
 
@@ -25,8 +25,7 @@ class TrialEar {
   explicit TrialEar(speech::OpenSource source,
                     speech::Ear::MakeRecogniser make = &speech::make_sphinx_recogniser);
 
-  /// Listens for the names of the goal's things that are the target or wrong. Fails where two of them that
-  /// differ in that sound alike.
+  /// Listens for the names of the goal's things that are the target or wrong. Fails as spoken_choices().
   base::Result<void> expect(const TrialGoal& goal);
   /// Hears nothing from now on (true).
   void mute(bool muted) { ear_.mute(muted); }
@@ -34,18 +33,16 @@ class TrialEar {
   bool is_ready() const;
   /// Why it hears nothing, a sentence; empty: it does, or is not ready yet.
   std::string problem() const { return ear_.state().problem; }
-  /// The utterances since the last call that may be choices of the trial.
+  /// The utterances since the last call that may be choices of the trial: none that was begun before its
+  /// names were expected.
   std::vector<SaidInTrial> take();
 
  private:
   SaidInTrial understood(const speech::HeardUtterance& utterance) const;
 
-  speech::Grammar grammar_;
-  bool expects_ = false;
+  std::optional<SpokenChoices> choices_;  // none: of no trial yet
+  double expects_since_ = 0.0;            // s, on the clock of ears
   speech::Ear ear_;
 };
-
-/// The words by which a thing is chosen: its name, that of a widget as it is written there.
-std::vector<std::string> words_of_thing(const TrialGoal& goal, const Thing& thing);
 
 }  // namespace icome::study

@@ -21,6 +21,8 @@ constexpr double kStartRadius = 0.006;           // m
 const base::Vector3 kTowardEye(0.0, 0.25, 1.0);  // from the front, a little above
 constexpr double kHeldApart = 0.002;             // m from the start, beyond which a mouse's hand is put back
 
+constexpr double kLooksAgain = speech::Ear::kPatience + 0.5;  // s, with the time that opening takes
+
 double seconds(std::int64_t nanoseconds) { return double(nanoseconds) * 1e-9; }
 
 }  // namespace
@@ -49,7 +51,8 @@ struct TrialStage::Parts {
   speech::OpenSource microphone = [] { return speech::open_microphone(); };
   std::unique_ptr<TrialEar> ear;  // null: no trial that needs speech was there yet
   bool hears = false;             // does this trial need it?
-  double released_at = 0.0;       // s, on the clock of ears
+  double set_up_at = 0.0;         // s, on the clock of ears
+  double released_at = 0.0;       // s, likewise
   std::vector<SaidInTrial> said;
   TrialMeasures measures;
   Trace trace;
@@ -193,6 +196,7 @@ void TrialStage::Parts::begin_seeking() {
 
 base::Result<void> TrialStage::Parts::listen(const TrialGoal& goal) {
   said.clear();
+  set_up_at = speech::clock_of_ears();
   hears = goal.speech;
   if (ear) ear->mute(!hears);
   if (!hears) return {};
@@ -200,9 +204,11 @@ base::Result<void> TrialStage::Parts::listen(const TrialGoal& goal) {
   return ear->expect(goal);
 }
 
-/// Lets what was said since the start choose. What was begun before it is kept, and chooses nothing.
+/// Lets what was said since the start choose. What was begun before it is kept, and chooses nothing. A trial
+/// that is done again begins while the ear may not have looked yet whether the microphone is back.
 void TrialStage::Parts::hear_choices() {
-  if (const std::string problem = ear->problem(); !problem.empty())
+  const bool has_looked = speech::clock_of_ears() > set_up_at + kLooksAgain || state == State::Running;
+  if (const std::string problem = ear->problem(); has_looked && !problem.empty())
     return fail("Nothing can be heard: " + problem + (problem.ends_with('.') ? "" : "."));
   for (SaidInTrial& one : ear->take()) {
     if (state != State::Running) continue;

@@ -88,8 +88,11 @@ void TrialWatch::run(const Sample& tick) {
     approached_ = true;
     measures_.approach_time = time;
   }
-  const int by_hand = chosen(tick), said = std::exchange(said_, -1);
-  const int choice = said >= 0 ? said : by_hand;
+  int choice = chosen(tick);
+  if (!said_.empty()) {
+    choice = said_.front();
+    said_.pop_front();
+  }
   samples_.back().lit = lit_;
   samples_.back().chosen = choice;
   if (choice >= 0 && goal_.things[std::size_t(choice)].target) return end(true, time);

@@ -1,4 +1,6 @@
 #pragma once
+#include <deque>
+
 #include "study/definition/trial_goal.h"
 #include "study/records/records.h"
 
@@ -18,8 +20,8 @@ class TrialWatch {
   /// Has the pointer been held long enough, so that it is to be released?
   bool is_due() const { return state_ == State::Holding && now_ - caught_ >= goal_.hold; }
   /// The person has chosen this thing of the goal by saying its name, which counts in the next tick while
-  /// Running.
-  void say(int thing) { said_ = thing; }
+  /// Running, or where something said before still waits for that, in the one after it.
+  void say(int thing) { said_.push_back(thing); }
   /// Releases the pointer: the next tick is the start.
   void release() { released_ = true; }
 
@@ -55,7 +57,7 @@ class TrialWatch {
   double caught_ = 0.0, now_ = 0.0, start_ = 0.0;  // s
   std::vector<Sample> samples_;
   TrialMeasures measures_;
-  int said_ = -1;
+  std::deque<int> said_;
   bool released_ = false;
   bool approached_ = false;
   int lit_ = -1;

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <thread>
 
+#include "speech/listening/sample_clock.h"
 #include "speech/until.h"
 
 namespace icome::speech {
@@ -120,6 +121,67 @@ TEST(Ear, HearsNothingWhileItIsMuted) {
     return !all.empty();
   }));
   EXPECT_GT(all[0].end, heard_again - 0.1);
+}
+
+/// Understands nothing until it is let.
+class SlowHearer final : public Recogniser {
+ public:
+  explicit SlowHearer(const std::atomic<bool>& may) : may_(may) {}
+  base::Result<std::vector<std::string>> set_grammar(const Grammar&, const HeardRules&) override {
+    return std::vector<std::string>{};
+  }
+  base::Result<std::vector<Heard>> recognise(Sound) override {
+    (void)until([&] { return may_.load(); });
+    return std::vector<Heard>{{.words = {{"yes", 0.1, 0.3}}}};
+  }
+
+ private:
+  const std::atomic<bool>& may_;
+};
+
+TEST(Ear, HearsWhatIsSaidWhileItUnderstandsWhatWasSaidBefore) {
+  std::atomic<bool> lost = false, may = false;
+  Ear ear([&]() -> base::Result<std::unique_ptr<SoundSource>> { return std::make_unique<Whistle>(lost); },
+          [&]() -> base::Result<std::unique_ptr<Recogniser>> { return std::make_unique<SlowHearer>(may); });
+  ear.attend(Attention::WhileHeld);
+  ear.expect({}, "s", "often");
+  ASSERT_TRUE(until([&] { return ear.state().doing == EarState::Doing::Listening; }));
+  const auto press = [&] {
+    ear.hold(true);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    ear.hold(false);
+    std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  };
+  press();
+  ASSERT_TRUE(until([&] { return ear.state().doing == EarState::Doing::Understanding; }));
+  press();
+  EXPECT_TRUE(ear.take().empty());
+  may = true;
+  std::vector<HeardUtterance> all;
+  ASSERT_TRUE(until([&] {
+    for (HeardUtterance& it : ear.take()) all.push_back(std::move(it));
+    return all.size() >= 2;
+  }));
+  EXPECT_GT(all[0].seconds, 1.4);  // as long as it waited
+  EXPECT_GT(all[1].begin, all[0].end);
+}
+
+TEST(SampleClock, GoesByTheSamplesThatComeSoonest) {
+  constexpr double kBegan = 1000.0, kLump = 0.02, kLate = 0.1;  // s
+  SampleClock clock;
+  std::size_t samples = 0;
+  // Lumps are heard from then on, and each comes late but for some.
+  const auto come = [&](double from, int lumps) {
+    for (int i = 1; i <= lumps; ++i) {
+      samples += std::size_t(kLump * kSampleRate);
+      clock.came(samples, from + i * kLump + (i % 25 == 0 ? 0.0 : kLate));
+    }
+  };
+  come(kBegan, 250);
+  EXPECT_NEAR(clock.first(), kBegan, 1e-6);
+  // Three seconds long nothing comes, and what was said in them is lost.
+  come(kBegan + 8.0, int(2.2 * SampleClock::kSpan / kLump));
+  EXPECT_NEAR(clock.first(), kBegan + 3.0, 1e-6);
 }
 
 TEST(Ear, LooksForAMicrophoneThatWasLost) {

@@ -1,10 +1,14 @@
 #include "study/definition/scene_check.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <regex>
+#include <sstream>
 
 #include "study/box_menu.h"
+#include "study/definition/spoken_choices.h"
 
 namespace icome::study {
 namespace {
@@ -74,6 +78,42 @@ TEST(SceneCheck, ATargetThatIsTakenAwayIsNone) {
   EXPECT_EQ(checked(folder, study).reasons.size(), 1U);
   study.task->shown.clear();
   EXPECT_TRUE(checked(folder, study).reasons.empty());
+}
+
+/// What the check says where names of the task's things are changed, and things are chosen by saying them.
+StudyCheck checked_aloud(const char* block) {
+  const TemplateFolder folder("blank");
+  Study study = folder.study();
+  const std::filesystem::path scene = folder.path() / study.trials.scenes[0].file;
+  std::stringstream text;
+  text << std::ifstream(scene).rdbuf();
+  std::ofstream(scene) << std::regex_replace(text.str(), std::regex("DEF block"),
+                                             fmt::format("DEF {}", block));
+  study.independent[0].levels[1].needs = {"speech"};
+  return checked(folder, study);
+}
+
+TEST(SceneCheck, NamesThatSoundAlikeAreToldWhereTheyAreSaid) {
+  EXPECT_TRUE(checked_aloud("block").reasons.empty());
+  const StudyCheck alike = checked_aloud("Target");
+  ASSERT_EQ(alike.reasons.size(), 1U);
+  EXPECT_NE(alike.reasons[0].sentence.find("sound alike"), std::string::npos) << alike.reasons[0].sentence;
+  // What is wrong need not have a name; what is looked for must.
+  EXPECT_TRUE(checked_aloud("___").reasons.empty());
+}
+
+TEST(SpokenChoices, ATargetWithoutWordsIsRefused) {
+  TrialGoal goal;
+  goal.things = {{"___", {}, true, false, {}}, {"ball", {}, false, true, {}}};
+  const auto choices = spoken_choices(goal);
+  ASSERT_FALSE(choices);
+  EXPECT_NE(choices.error().message.find("'___' is the target, and has no name"), std::string::npos);
+  goal.things[0].name = "Box 2";
+  const auto said = spoken_choices(goal);
+  ASSERT_TRUE(said);
+  EXPECT_EQ(said->chosen({"select", "the", "box", "two"}), 0);
+  EXPECT_EQ(said->chosen({"ball"}), 1);
+  EXPECT_EQ(said->chosen({"cone"}), -1);
 }
 
 TEST(SceneCheck, WhatIsNeverWrongIsWorthAThought) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <thread>
@@ -201,6 +202,23 @@ TEST(TrialStage, ATrialThatNeedsSpeechFailsWithoutAMicrophone) {
   blank.stage->begin(measured_trial(blank.study, {}, 0, 0));
   ASSERT_EQ(wait_for(*blank.stage, State::Over), State::Failed);
   EXPECT_EQ(blank.stage->why(), "Nothing can be heard: there is no microphone.");
+}
+
+TEST(TrialStage, AMicrophoneThatIsBackIsHeardInTheTrialThatIsDoneAgain) {
+  Blank blank;
+  blank.study.needs = {"speech"};
+  Speaking::Person person;
+  std::atomic<bool> is_there = false;
+  blank.stage->listen_to([&]() -> base::Result<std::unique_ptr<speech::SoundSource>> {
+    if (!is_there) return base::fail("there is no microphone");
+    return std::make_unique<Speaking>(person);
+  });
+  const TrialPlan plan = measured_trial(blank.study, {}, 0, 0);
+  blank.stage->begin(plan);
+  ASSERT_EQ(wait_for(*blank.stage, State::Over), State::Failed);
+  is_there = true;
+  blank.stage->begin(plan);
+  EXPECT_EQ(wait_for(*blank.stage, State::Running), State::Running) << blank.stage->why();
 }
 
 /// A head that leans to the right.

@@ -94,6 +94,17 @@ TEST(TrialWatch, TouchingTheTargetEndsTheTrial) {
   EXPECT_NEAR(samples.back().time, 0.151, 1e-9);
 }
 
+TEST(TrialWatch, EachThingThatIsSaidCounts) {
+  Hand hand(goal(Choosing::Touch));
+  hand.begin();
+  hand.watch.say(1);
+  hand.watch.say(0);
+  hand.at(kFree, 3);
+  EXPECT_EQ(hand.watch.state(), TrialWatch::State::Over);
+  EXPECT_EQ(hand.watch.measures().errors, 1);
+  EXPECT_TRUE(hand.watch.measures().completed);
+}
+
 TEST(TrialWatch, WrongTouchesCountOnceAndBouncesDoNot) {
   Hand hand(goal(Choosing::Touch));
   hand.begin();
