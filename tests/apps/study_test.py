@@ -114,11 +114,12 @@ class StudyTest(ProgramTest):
 
     def test_a_microphone_that_cannot_be_heard_is_told_before_anybody_begins(self):
         file = self.new("spoken.toml", "--template", "blank")
-        self.fails("study", "run", file, "--microphone", "nosuch.wav", saying="for studies that need speech")
+        self.fails("study", "run", file, "--microphone", "nosuch.wav", code=1,
+                   saying="for studies that need speech")
         text = file.read_text()
         self.assertIn('needs = ["pointer"]', text)
         file.write_text(text.replace('needs = ["pointer"]', 'needs = ["pointer", "speech"]', 1))
-        self.fails("study", "run", file, "--microphone", "nosuch.wav", saying="nosuch.wav")
+        self.fails("study", "run", file, "--microphone", "nosuch.wav", code=1, saying="nosuch.wav")
 
     def test_what_nobody_comes_to_is_told(self):
         file = self.new("menu.toml", "--template", "menu")

@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "interaction/elements/element_samples.h"
+#include "repeats.h"
 
 namespace icome::interaction {
 namespace {
@@ -78,7 +79,7 @@ TEST(DaisyLayout, NoTileLiesOverAnother) {
     }
     // Points of each tile, moved onto the sphere, against all others, seen from the sphere's middle.
     for (std::size_t i = 0; i < count; ++i)
-      for (int k = 0; k < 200; ++k) {
+      for (int k = 0; k < repeats(200); ++k) {
         const Vector2 half = layout.widgets[i].half;
         const Vector3 point =
             tiles[i] * Vector3(random.uniform(-half.x(), half.x()), random.uniform(-half.y(), half.y()), 0.0);
