@@ -31,6 +31,11 @@ TriangleMesh crumpled(base::Random& random) {
 /// The smallest distance of the probe's line from a stretch, by trying 100 places on it and 100 between the
 /// neighbours of the best of them.
 double distance_by_trying(const PartProbe& probe, const Vector3& from, const Vector3& to) {
+  // |point - probe.from - t * along|^2 for points from + u * way, in numbers alone: tests are not optimised.
+  const Vector3 start = from - probe.from, way = to - from;
+  const double start_along = start.dot(probe.along), way_along = way.dot(probe.along);
+  const double start_square = start.squaredNorm(), cross = 2.0 * start.dot(way),
+               way_square = way.squaredNorm();
   double best = std::numeric_limits<double>::infinity();
   double nearest = 0.5;
   double reach = 0.5;  // to both sides of `nearest`
@@ -38,9 +43,9 @@ double distance_by_trying(const PartProbe& probe, const Vector3& from, const Vec
     const double first = nearest - reach;
     for (int i = 0; i <= 100; ++i) {
       const double u = std::clamp(first + i / 50.0 * reach, 0.0, 1.0);
-      const Vector3 point = from + u * (to - from);
-      const double t = std::max(0.0, (point - probe.from).dot(probe.along));
-      const double distance = (point - probe.from - t * probe.along).norm() / probe.radius_at(t);
+      const double t = std::max(0.0, start_along + u * way_along);
+      const double square = start_square + u * (cross + u * way_square) - t * t;
+      const double distance = std::sqrt(std::max(0.0, square)) / probe.radius_at(t);
       if (distance >= best) continue;
       best = distance;
       nearest = u;
