@@ -111,10 +111,13 @@ class SphinxRecogniser final : public Recogniser {
       : config_(std::move(config)), decoder_(std::move(decoder)) {}
 
   Result<std::vector<std::string>> set_grammar(const Grammar& grammar, const HeardRules& rules) override {
+    const auto vocabulary = grammar.vocabulary(rules.sentence);
+    if (const auto taught = teach({vocabulary.begin(), vocabulary.end()}); !taught)
+      return tl::unexpected(taught.error());
     std::vector<std::string> silent;
     std::set<std::string> known;
-    for (const std::string& word : grammar.vocabulary(rules.sentence)) {
-      if (teach(word))
+    for (const std::string& word : vocabulary) {
+      if (knows(word))
         known.insert(word);
       else
         silent.push_back(word);
@@ -139,14 +142,34 @@ class SphinxRecogniser final : public Recogniser {
   }
 
  private:
-  /// Makes the word known; false where there are no sounds for it.
-  bool teach(const std::string& word) {
-    if (char* known = ps_lookup_word(decoder_.get(), word.c_str())) {
-      ckd_free(known);
-      return true;
+  bool knows(const std::string& word) {
+    char* const sounds = ps_lookup_word(decoder_.get(), word.c_str());
+    if (sounds != nullptr) ckd_free(sounds);
+    return sounds != nullptr;
+  }
+
+  /// Makes words known that are not, as the dictionary of the model says them, else by rule; some have no
+  /// sounds. The library would read the whole dictionary, which takes it over a second.
+  Result<void> teach(std::set<std::string> words) {
+    std::erase_if(words, [&](const std::string& word) { return knows(word); });
+    if (words.empty()) return {};
+    const std::string dictionary = std::string(kModel) + "/cmudict-en-us.dict";
+    std::ifstream lines(dictionary);
+    std::string line;
+    while (std::getline(lines, line)) {
+      const std::size_t end = line.find(' ');
+      if (end == std::string::npos || !words.contains(without_variant(line.substr(0, end)))) continue;
+      const std::string sounds = line.substr(end + 1);
+      line.resize(end);
+      ps_add_word(decoder_.get(), line.c_str(), sounds.c_str(), FALSE);
     }
-    const std::string sounds = sounds_of_word(word);
-    return !sounds.empty() && ps_add_word(decoder_.get(), word.c_str(), sounds.c_str(), FALSE) >= 0;
+    if (lines.bad() || !lines.eof()) return fail(fmt::format("{} cannot be read", dictionary));
+    for (const std::string& word : words) {
+      if (knows(word)) continue;
+      const std::string sounds = sounds_of_word(word);
+      if (!sounds.empty()) ps_add_word(decoder_.get(), word.c_str(), sounds.c_str(), FALSE);
+    }
+    return {};
   }
 
   bool take(const LanguageModel& words) {
@@ -252,12 +275,11 @@ Result<std::unique_ptr<Recogniser>> make_sphinx_recogniser() {
     return fail(fmt::format("{} has no model of English: install the package pocketsphinx-en-us", kModel));
   err_set_logfp(nullptr);
   const std::string hmm = std::string(kModel) + "/en-us";
-  const std::string dictionary = std::string(kModel) + "/cmudict-en-us.dict";
   std::unique_ptr<cmd_ln_t, FreeConfig> config(
-      cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", hmm.c_str(), "-dict", dictionary.c_str(), "-cmn", "batch",
-                  "-remove_noise", "no", "-remove_silence", "no", "-compallsen", "yes", "-lw", "8",
-                  "-fwdflatlw", "8", "-bestpathlw", "8", "-beam", "1e-80", "-pbeam", "1e-80", "-wbeam",
-                  "1e-60", "-fwdflatbeam", "1e-80", "-fwdflatwbeam", "1e-60", nullptr));
+      cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", hmm.c_str(), "-cmn", "batch", "-remove_noise", "no",
+                  "-remove_silence", "no", "-compallsen", "yes", "-lw", "8", "-fwdflatlw", "8", "-bestpathlw",
+                  "8", "-beam", "1e-80", "-pbeam", "1e-80", "-wbeam", "1e-60", "-fwdflatbeam", "1e-80",
+                  "-fwdflatwbeam", "1e-60", nullptr));
   if (!config) return fail("the recogniser does not take its settings");
   std::unique_ptr<ps_decoder_t, FreeDecoder> decoder(ps_init(config.get()));
   if (!decoder) return fail(fmt::format("the recogniser cannot read the model in {}", kModel));
