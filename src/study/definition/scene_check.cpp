@@ -102,7 +102,7 @@ class SceneChecker {
     return trial_goal(study_, {}, plan, *world, *element);
   }
 
-  /// Names that cannot be told apart by ear are told once for each scene.
+  /// Names that cannot be said, or told apart, are told once for each scene.
   void check_said(const TrialScene& scene, const TrialGoal& goal) {
     const auto choices = spoken_choices(goal);
     if (!choices && unsayable_.insert(scene.id).second)

@@ -14,8 +14,8 @@ struct SpokenChoices {
 };
 
 /// The choices among the things of a goal that are the target or wrong, each by its name, or that of a widget
-/// as it is written there. Fails where a target's name has no words, and where it sounds like that of another
-/// thing that is none.
+/// as it is written there. Fails where a target's name has no words, and where another thing, which is
+/// none, has the same words.
 base::Result<SpokenChoices> spoken_choices(const TrialGoal& goal);
 
 }  // namespace icome::study

@@ -80,7 +80,7 @@ TEST(SceneCheck, ATargetThatIsTakenAwayIsNone) {
   EXPECT_TRUE(checked(folder, study).reasons.empty());
 }
 
-/// What the check says where names of the task's things are changed, and things are chosen by saying them.
+/// The check of a study whose things are chosen by saying their names, with another name for the block.
 StudyCheck checked_aloud(const char* block) {
   const TemplateFolder folder("blank");
   Study study = folder.study();
