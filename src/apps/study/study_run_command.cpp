@@ -330,9 +330,8 @@ base::Result<speech::OpenSource> microphone_of(const StudyOptions& options, cons
   }
   speech::OpenSource source = speech::source_of(options.microphone);
   if (const auto heard = source(); !heard)
-    return base::fail(
-        fmt::format("{}: what is said in trials cannot be heard; --microphone names another one.",
-                    heard.error().message));
+    return base::fail("Nothing can be heard in trials, and --microphone names no recording: " +
+                      heard.error().message);
   return source;
 }
 

@@ -38,6 +38,7 @@ class RecordedSource final : public SoundSource {
 base::Result<std::unique_ptr<SoundSource>> open_recording(const std::string& file) {
   auto samples = read_recording(file);
   if (!samples) return tl::unexpected(samples.error());
+  if (samples->empty()) return base::fail(file + ": has no sound");
   return std::unique_ptr<SoundSource>(std::make_unique<RecordedSource>(std::move(*samples)));
 }
 

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "base/parse_number.h"
+#include "speech/hearing/word_sounds.h"
 #include "speech/words/spoken_words.h"
 
 namespace icome::study {
@@ -21,6 +23,12 @@ std::vector<std::string> words_of_thing(const TrialGoal& goal, const Thing& thin
   return speech::spoken_words(language < written.size() ? written[language] : thing.widget->name);
 }
 
+/// Has the word sounds? Letters of English have; of others, and of signs, the rules tell.
+bool has_sounds(const std::string& word) {
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  return std::ranges::any_of(word, is_letter) || !speech::sounds_of_word(word).empty();
+}
+
 }  // namespace
 
 int SpokenChoices::chosen(const std::vector<std::string>& words) const {
@@ -35,7 +43,7 @@ base::Result<SpokenChoices> spoken_choices(const TrialGoal& goal) {
     const Thing& thing = goal.things[i];
     if (!thing.target && !thing.wrong) continue;
     const std::vector<std::string> words = words_of_thing(goal, thing);
-    if (words.empty() && thing.target)
+    if (thing.target && (words.empty() || !std::ranges::all_of(words, has_sounds)))
       return base::fail(fmt::format("'{}' is the target, and has no name that can be said.", thing.name));
     if (words.empty()) continue;
     const auto [same, is_new] = known.emplace(words, &thing);

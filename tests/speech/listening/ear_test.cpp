@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <numbers>
 #include <thread>
 
@@ -216,6 +217,9 @@ TEST(Ear, TellsWhyItHearsNothing) {
 
 TEST(Microphone, ThatIsNotThereIsTold) {
   EXPECT_FALSE(open_recording("/no/such/recording.wav"));
+  const std::string empty = testing::TempDir() + "icome_no_sound.raw";
+  std::ofstream(empty).flush();
+  EXPECT_FALSE(open_recording(empty));
 #ifdef ICOME_ADDRESS_SANITIZER
   GTEST_SKIP() << "libraries of sound systems keep memory when they are unloaded, which looks like ours";
 #endif

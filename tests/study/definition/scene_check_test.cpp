@@ -108,6 +108,8 @@ TEST(SpokenChoices, ATargetWithoutWordsIsRefused) {
   const auto choices = spoken_choices(goal);
   ASSERT_FALSE(choices);
   EXPECT_NE(choices.error().message.find("'___' is the target, and has no name"), std::string::npos);
+  goal.things[0].name = "★";  // a word, without sounds
+  EXPECT_FALSE(spoken_choices(goal));
   goal.things[0].name = "Box 2";
   const auto said = spoken_choices(goal);
   ASSERT_TRUE(said);
