@@ -16,7 +16,7 @@
 #include "apps/devices/devices_help.h"
 #include "apps/eye_options.h"
 #include "apps/help_text.h"
-#include "apps/number_range.h"
+#include "apps/option_checks.h"
 #include "apps/serving/serving_command.h"
 #include "apps/stats/stats_command.h"
 #include "apps/stats/stats_help.h"

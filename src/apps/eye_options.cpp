@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/number_range.h"
+#include "apps/option_checks.h"
 #include "base/parse_number.h"
 
 namespace icome::apps {

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import tempfile
 import unittest
+import wave
 
 PROGRAM = os.environ["ICOME_PROGRAM"]
 SHARED = pathlib.Path(__file__).resolve().parents[3] / "shared" / "data" / "speech"
@@ -88,7 +89,13 @@ class Speech(unittest.TestCase):
             done = self.run_icome(*arguments)
             self.assertEqual(done.returncode, 1, arguments)
             self.assertIn(told, done.stderr)
-        self.assertEqual(self.run_icome("voice").returncode, 2)
+        for arguments in [["voice"], ["listen", ""], ["listen", "--microphone", ""]]:
+            self.assertEqual(self.run_icome(*arguments).returncode, 2, arguments)
+        with wave.open(str(self.at / "none.wav"), "wb") as empty:
+            empty.setparams((1, 2, 16000, 0, "NONE", ""))
+        done = self.run_icome("listen", "--json", "none.wav")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("none.wav: there is no sound in it", done.stderr)
 
     def test_a_vocabulary_of_ones_own(self):
         (self.at / "own.toml").write_text('[words.shape]\n"tile|tiles" = "box"\n[[command]]\nname = "soften"\n'
@@ -102,6 +109,15 @@ class Speech(unittest.TestCase):
         done = self.run_icome("voice", "--check", "own.toml", "--json")
         self.assertEqual(done.returncode, 1)
         self.assertIn("own.toml:2:8", json.loads(done.stdout)["problems"][0])
+        (self.at / "own.toml").write_text('[words.colour]\nteal = "greenish"\n"" = "#008080"\n')
+        done = self.run_icome("voice", "--check", "own.toml", "--json")
+        problems = json.loads(done.stdout)["problems"]
+        self.assertEqual(len(problems), 2, problems)
+        self.assertIn("own.toml:3:", problems[1])
+        (self.at / "own.toml").write_text('[words.colour]\n"★" = "#ff0000"\n', encoding="utf-8")
+        done = self.run_icome("voice", "--check", "own.toml", "--json")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("nobody can be heard to say: ★", json.loads(done.stdout)["problems"][0])
 
     def test_every_listed_sentence_can_be_said(self):
         self.say("a red box", "name it seat", "a blue cone", "--out", "a.icome")

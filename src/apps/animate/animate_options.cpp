@@ -4,7 +4,7 @@
 
 #include "animation/project/project.h"
 #include "apps/help_text.h"
-#include "apps/number_range.h"
+#include "apps/option_checks.h"
 
 namespace icome::apps {
 namespace {

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
-#include "apps/number_range.h"
+#include "apps/option_checks.h"
 #include "devices/catalogue.h"
 #include "devices/spacemouse/space_mouse.h"
 #include "headcam/camera_head.h"

@@ -11,7 +11,7 @@
 #include "apps/devices/device_test_command.h"
 #include "apps/devices/devices_help.h"
 #include "apps/devices/serve_command.h"
-#include "apps/number_range.h"
+#include "apps/option_checks.h"
 #include "devices/axes.h"
 #include "devices/catalogue.h"
 

@@ -12,7 +12,7 @@
 
 #include "apps/head/head_camera_command.h"
 #include "apps/interrupt.h"
-#include "apps/number_range.h"
+#include "apps/option_checks.h"
 #include "apps/status_line.h"
 #include "apps/terminal.h"
 #include "devices/head_trace.h"

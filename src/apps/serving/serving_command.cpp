@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/number_range.h"
+#include "apps/option_checks.h"
 #include "apps/serving/invite_command.h"
 #include "apps/serving/serve_command.h"
 #include "apps/serving/serving_help.h"

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/number_range.h"
+#include "apps/option_checks.h"
 #include "apps/sketch/open_command.h"
 
 namespace icome::apps {

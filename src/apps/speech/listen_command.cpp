@@ -45,6 +45,7 @@ class Listener {
   Result<void> hear_recording(const std::filesystem::path& file, speech::Recogniser& recogniser) {
     const auto sound = speech::read_recording(file);
     if (!sound) return tl::unexpected(sound.error());
+    if (sound->empty()) return base::fail(fmt::format("{}: there is no sound in it", file.string()));
     const auto utterances = speech::utterances_of(*sound, {.hang = options_.hang});
     for (const speech::Utterance& utterance : utterances) {
       if (interrupted()) return base::fail("interrupted");

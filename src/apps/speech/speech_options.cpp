@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/number_range.h"
+#include "apps/option_checks.h"
 
 namespace icome::apps {
 namespace {
@@ -96,7 +96,8 @@ void add_speech(CLI::App& app, SpeechOptions& options) {
   listen.footer(kListenNotes);
   auto* const recordings =
       listen.add_option("WAV", options.listen.recordings, "Recordings of speech (default: the microphone)")
-          ->type_name("");
+          ->type_name("")
+          ->check(not_empty());
   add_talk_options(listen, options.listen.talk);
   listen.add_option("--pointer", options.listen.pointer, "Where the hand is, by the time")
       ->type_name("P.csv");
@@ -107,6 +108,7 @@ void add_speech(CLI::App& app, SpeechOptions& options) {
       ->needs(apply);
   listen.add_option("--microphone", options.listen.microphone, "Another microphone than the usual one")
       ->type_name("NAME")
+      ->check(not_empty())
       ->excludes(recordings);
   listen
       .add_option("--wake-word", options.listen.wake_word,

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
 #include "apps/speech/talk.h"
 #include "apps/terminal.h"
 #include "speech/dialogue/sayable.h"
+#include "speech/hearing/recogniser.h"
 
 namespace icome::apps {
 namespace {
@@ -73,16 +75,48 @@ base::Result<std::string> list(const VoiceOptions& options, StatusLine& status) 
                            : list_text(dialogue.vocabulary(), sayable);
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Words of a vocabulary that nobody can be heard to say. Fails where there is no recogniser that tells.
+base::Result<std::vector<std::string>> silent_words(const TalkOptions& options, StatusLine& status) {
+  const auto talk = Talk::open(options, status);
+  if (!talk) return tl::unexpected(talk.error());
+  status.say("Loading the recogniser");
+  const auto recogniser = speech::make_sphinx_recogniser();
+  status.clear();
+  if (!recogniser) return tl::unexpected(recogniser.error());
+  return (*recogniser)
+      ->set_grammar((*talk)->dialogue().vocabulary().grammar,
+                    {speech::Dialogue::kSentence, speech::Dialogue::kUsualSentence});
+}
+
+/// Sentences, each with its file, about what is wrong with the last vocabulary of the options.
+std::vector<std::string> problems_of(const TalkOptions& options,
+                                     const base::Result<speech::Vocabulary>& vocabulary) {
+  if (!vocabulary) return lines_of(vocabulary.error().message);
+  const std::string file = options.vocabularies.back().string();
+  std::vector<std::string> problems;
+  for (const std::string& it : speech::often_but_never(*vocabulary))
+    problems.push_back(fmt::format("{}: {}.", file, it));
+  StatusLine status;
+  const auto silent = silent_words(options, status);
+  if (!silent)
+    tell(silent.error().message);
+  else if (!silent->empty())
+    problems.push_back(fmt::format("{}: nobody can be heard to say: {}.", file, fmt::join(*silent, ", ")));
+  return problems;
+}
+
 int check(const VoiceOptions& options) {
   TalkOptions talk = options.talk;
   talk.vocabularies.push_back(options.check);
   const auto vocabulary = vocabulary_of(talk);
-  std::vector<std::string> problems;
-  if (!vocabulary)
-    problems.push_back(vocabulary.error().message);
-  else
-    for (const std::string& it : speech::often_but_never(*vocabulary))
-      problems.push_back(fmt::format("{}: {}.", options.check.string(), it));
+  const std::vector<std::string> problems = problems_of(talk, vocabulary);
   if (options.talk.json) {
     const Json json{{"file", options.check.string()},
                     {"valid", problems.empty()},

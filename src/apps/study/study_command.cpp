@@ -9,6 +9,7 @@
 
 #include "apps/design/design_work.h"
 #include "apps/interrupt.h"
+#include "apps/option_checks.h"
 #include "apps/study/study_help.h"
 #include "apps/study/study_report.h"
 #include "apps/study/study_report_command.h"
@@ -119,7 +120,8 @@ CLI::App& add_session_command(CLI::App& study, StudyOptions& options, const char
   command
       .add_option("--microphone", options.microphone,
                   "The microphone of trials that need speech, by name, or a recording")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->check(not_empty());
   command.add_flag("--window", options.in_window, "Not over the whole screen");
   return command;
 }

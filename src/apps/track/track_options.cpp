@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/number_range.h"
+#include "apps/option_checks.h"
 
 namespace icome::apps {
 namespace {

@@ -123,7 +123,9 @@ class VocabularyReader {
   /// The words as they are heard; a problem where that is not how they are written.
   std::string heard(const std::string& words, Place place) {
     std::string spoken = joined_words(spoken_words(words));
-    if (spoken != words || words.empty())
+    if (words.empty())
+      problems_.add(place, "there is no word here.");
+    else if (spoken != words)
       problems_.add(place, fmt::format("'{}' cannot be heard so: write it in small letters, without signs "
                                        "and digits{}.",
                                        words, spoken.empty() ? "" : fmt::format(": '{}'", spoken)));

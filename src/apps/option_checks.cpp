@@ -1,4 +1,4 @@
-#include "apps/number_range.h"
+#include "apps/option_checks.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +12,10 @@ std::function<std::string(const std::string&)> number_range(double least, double
     if (number && *number >= least && *number <= most) return std::string();
     return fmt::format("{} is not a number from {:g} to {:g}", text, least, most);
   };
+}
+
+std::function<std::string(const std::string&)> not_empty() {
+  return [](const std::string& value) { return std::string(value.empty() ? "is empty" : ""); };
 }
 
 }  // namespace icome::apps
