@@ -19,6 +19,7 @@
 #include "devices/device_news.h"
 #include "devices/simulated/simulated_device.h"
 #include "haptics/servo/servo.h"
+#include "realtime/locked_memory.h"
 #include "realtime/loop.h"
 #include "realtime/message_pipe.h"
 
@@ -151,6 +152,7 @@ RunOutcome replay(devices::PathPlayer& player, const std::shared_ptr<const hapti
   std::vector<TickRow> block;
   block.reserve(std::min(kBlockRows, rows));
   const double period = 1.0 / options.rate_hz;
+  realtime::lock_memory();  // as a loop on the clock does, so that ticks cost here what they cost there
   const Stopwatch watch;
   double due = times.front();  // s, the time of the next publication
   for (std::size_t row = 0; row < rows && !outcome.interrupted;) {

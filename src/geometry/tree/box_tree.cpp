@@ -8,6 +8,7 @@
 namespace icome::geometry {
 
 using detail::kRounding;
+using detail::kTiny;
 
 namespace {
 
@@ -141,6 +142,31 @@ unsigned FourBoxes::within_mask(const SegmentQuery& query) const {
   }
   const FourFloats distance = square_root(squared);
   return detail::mask_of(distance * (distance - query.radius) <= magnitude(along) + query.rounding * slack);
+}
+
+BallWay::BallWay(const Vector3& start_in, const Vector3& step_in, double radius_in)
+    : length(float(step_in.norm())) {
+  for (int axis = 0; axis < 3; ++axis) {
+    start[axis] = float(start_in[axis]);
+    step[axis] = float(step_in[axis]);
+  }
+  const double magnitude = start_in.cwiseAbs().maxCoeff() + step_in.cwiseAbs().maxCoeff() + radius_in;
+  radius = float(radius_in + 16.0 * double(kRounding) * magnitude);
+}
+
+// A box lies behind the plane through its place nearest to the start, at right angles to the way there.
+FourFloats FourBoxes::entries(const BallWay& way) const {
+  FourFloats squared{};
+  FourFloats along{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const float p = way.start[axis];
+    const FourFloats off = positive(lo[axis] - p) - positive(p - hi[axis]);
+    squared += off * off;
+    along += off * way.step[axis];
+  }
+  const FourFloats distance = square_root(squared);
+  const FourFloats nearer = positive(along) + 8.0f * kRounding * way.length * distance + kTiny;
+  return positive(distance - way.radius) * distance / nearer;
 }
 
 double BoxTree::distance_squared(const Node& node, unsigned child, const FloatPoint& point) {

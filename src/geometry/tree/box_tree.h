@@ -27,6 +27,7 @@ struct FloatBox {
 inline FloatBox float_box(const Bounds& bounds);
 
 struct SegmentQuery;
+struct BallWay;
 
 /// Four numbers that one instruction works on.
 using FourFloats [[gnu::vector_size(16)]] = float;
@@ -43,6 +44,8 @@ struct FourBoxes {
   unsigned overlap_mask(const FloatBox& box) const;
   /// Bit i is set when box i comes near the query's segment. Real-time safe.
   unsigned near_mask(const SegmentQuery& query) const;
+  /// For each box a share of the way before which the ball does not meet it. Real-time safe.
+  FourFloats entries(const BallWay& way) const;
 
   FourFloats lo[3];
   FourFloats hi[3];
@@ -69,6 +72,16 @@ struct SegmentQuery {
   bool round;                   // worth a distance
 };
 
+/// The straight way of a ball of `radius` (m) from `start` by `step`, to be swept.
+struct BallWay {
+  BallWay(const Vector3& start, const Vector3& step, double radius);
+
+  std::array<float, 3> start;
+  std::array<float, 3> step;
+  float length;
+  float radius;  // m, with room for rounding
+};
+
 /// A tree over boxes that are already in spatial order (see hilbert_order): four children a node,
 /// no pointers, children found by counting (a packed Hilbert R-tree). Costs 32 bytes a leaf box.
 /// Owns its nodes. Queries never allocate and may run in several threads.
@@ -89,6 +102,14 @@ class BoxTree {
   /// nearer subtrees first; `visit` returns the new limit. Real-time safe when `visit` is.
   template <typename Visit>
   void nearest(const Vector3& point, double limit, Visit&& visit) const;
+
+  /// Calls `visit(leaf)` for the leaf boxes that a ball of `radius` (m) can meet on its way from `start` by
+  /// `step`, roughly in the order of its way; `visit` returns the share of the way that still counts, which
+  /// never grows. `announce(leaf)` is called some time before, to fetch what a visit needs. Real-time safe
+  /// when both are.
+  template <typename Announce, typename Visit>
+  void sweep(const Vector3& start, const Vector3& step, double radius, Announce&& announce,
+             Visit&& visit) const;
 
   std::size_t leaf_count() const { return leaf_count_; }
   /// The box of one leaf. Real-time safe.
@@ -196,6 +217,51 @@ void BoxTree::near(const SegmentQuery& query, Visit&& visit) const {
         stack[depth++] = {place.level - 1, index};
         __builtin_prefetch(&nodes_[start_[place.level - 1] + index]);
       }
+    }
+  }
+}
+
+template <typename Announce, typename Visit>
+void BoxTree::sweep(const Vector3& start, const Vector3& step, double radius, Announce&& announce,
+                    Visit&& visit) const {
+  struct Candidate {
+    Place place;
+    float entry;
+  };
+  if (levels_ == 0) return;
+  const BallWay way(start, step, radius);
+  SegmentQuery query(start, start + step, radius);
+  float share = 1.0f;
+  // Leaves come on top of nodes, so that a way that is stopped soon looks at few nodes.
+  std::array<Candidate, kMaxLevels * kWidth + 1> stack;
+  unsigned depth = 0;
+  stack[depth++] = {{levels_, 0}, 0.0f};
+  while (depth > 0) {
+    const Candidate top = stack[--depth];
+    if (top.entry > share) continue;
+    if (top.place.level == 0) {
+      const double now = visit(top.place.index);
+      if (now >= double(share)) continue;
+      share = std::nextafter(float(now), 2.0f);
+      query = SegmentQuery(start, start + now * step, radius);
+      continue;
+    }
+    const Node& node = nodes_[start_[top.place.level - 1] + top.place.index];
+    const FourFloats entries = node.entries(way);
+    const unsigned first = depth;
+    for (unsigned mask = node.near_mask(query); mask != 0; mask &= mask - 1) {
+      const auto child = unsigned(__builtin_ctz(mask));
+      const float entry = entries[child];
+      if (entry > share) continue;
+      const Place place{top.place.level - 1, top.place.index * kWidth + child};
+      if (place.level == 0) {
+        announce(place.index);
+      } else {
+        __builtin_prefetch(&nodes_[start_[place.level - 1] + place.index]);
+      }
+      unsigned slot = depth++;  // insertion keeps the one that is met first on top
+      for (; slot > first && stack[slot - 1].entry < entry; --slot) stack[slot] = stack[slot - 1];
+      stack[slot] = {place, entry};
     }
   }
 }

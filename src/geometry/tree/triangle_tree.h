@@ -63,14 +63,25 @@ class TriangleTree {
       return more;
     };
     boxes_.near(query, [&](std::uint32_t group) {
-      const char* corners = reinterpret_cast<const char*>(&corners_[group * kGroup]);
-      for (std::size_t line = 0; line < kGroup * sizeof(Corners); line += kCacheLine) {
-        __builtin_prefetch(corners + line);
-      }
+      prefetch(group);
       groups[count++] = group;
       return count < kBatch || look();
     });
     look();
+  }
+
+  /// Calls `visit(slot)` for the triangles that a ball of `radius` (m) can meet on its way from `start` by
+  /// `step`, and for some near them, as BoxTree::sweep does. Real-time safe when `visit` is.
+  template <typename Visit>
+  void sweep(const Vector3& start, const Vector3& step, double radius, Visit&& visit) const {
+    boxes_.sweep(
+        start, step, radius, [&](std::uint32_t group) { prefetch(group); },
+        [&](std::uint32_t group) {
+          const std::uint32_t end = std::min(group * kGroup + kGroup, std::uint32_t(corners_.size()));
+          double share = 1.0;
+          for (std::uint32_t slot = group * kGroup; slot < end; ++slot) share = visit(slot);
+          return share;
+        });
   }
 
   /// The first triangle that the segment from `a` to `b` crosses, from either side. Watertight: a
@@ -101,6 +112,11 @@ class TriangleTree {
   static constexpr std::size_t kBatch = 16;      // groups
   static constexpr std::size_t kCacheLine = 64;  // bytes
 
+  void prefetch(std::uint32_t group) const {
+    const char* corners = reinterpret_cast<const char*>(&corners_[group * kGroup]);
+    for (std::size_t line = 0; line < kGroup * sizeof(Corners); line += kCacheLine)
+      __builtin_prefetch(corners + line);
+  }
   void copy_corners(const TriangleMesh& mesh);
   std::vector<FloatBox> group_boxes() const;
   Bounds triangle_bounds(std::uint32_t slot) const;

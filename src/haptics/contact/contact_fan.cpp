@@ -81,11 +81,14 @@ void ContactFan::find_ways(const Vector3& pull) {
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Vector3& normal = elements_[i].axis;
     const Vector3 along_face = direction - normal.dot(direction) * normal;
-    consider(along_face, direction, i, std::max(0.0, tolerance_.gap - above(elements_[i], position_)));
+    const double low = std::max(0.0, tolerance_.gap - above(elements_[i], position_));
+    consider(along_face, direction, i, low);
     // Along an edge no face comes nearer, so that none must be risen above: between the walls of a slot there
-    // may be no room for it.
+    // may be no room for it. But an SCP that rests before the edge begins may lie below its face.
     for_each_edge(i, length_, [&](const Vector3&, const Vector3& along_edge, const Vector3&) {
-      consider(along_edge.dot(direction) * along_edge, direction, i, 0.0);
+      const Vector3 along = along_edge.dot(direction) * along_edge;
+      consider(along, direction, i, 0.0);
+      if (low > 0.0) consider(along, direction, i, low);
     });
   }
   std::sort(ways_.begin(), ways_.begin() + way_count_,

@@ -43,7 +43,7 @@ class ContactFan {
   std::optional<FanWay> steepest(double held);
 
  private:
-  static constexpr std::size_t kMostWays = 1 + 5 * kCapacity;
+  static constexpr std::size_t kMostWays = 1 + 9 * kCapacity;
   static constexpr std::size_t kMostStations = 8 * kCapacity;
   static constexpr std::size_t kMostExtremes = 12 * kCapacity;
 

@@ -51,8 +51,9 @@ std::optional<double> exit_from(const Vector3& offset, const Vector3& step, doub
 
 }  // namespace
 
-ContactRegion::ContactRegion() : pieces_(kPieces), boxes_(kPieces / FourBoxes::kCount) {
+ContactRegion::ContactRegion() : pieces_(kPieces), boxes_(kPieces / FourBoxes::kCount), made_(kMade) {
   elements_.reserve(kElements);
+  made_elements_.reserve(kMadeElements);
 }
 
 void ContactRegion::start(const HapticScene& scene, const Frame& frame, const Vector3& a, const Vector3& b,
@@ -66,8 +67,11 @@ void ContactRegion::start(const HapticScene& scene, const Frame& frame, const Ve
   tolerance_ = Tolerance::for_coordinates(std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()));
   smallest_ = std::numeric_limits<double>::infinity();
   overflowed_ = false;
+  keeps_whole_ = false;
   size_ = 0;
   elements_.clear();
+  made_elements_.clear();
+  ++generation_;
 }
 
 void ContactRegion::hold(double size) {
@@ -104,6 +108,11 @@ bool ContactRegion::defer(std::uint32_t object, std::uint32_t piece, const Bound
   return true;
 }
 
+bool ContactRegion::defer_whole(std::uint32_t object) {
+  const Vector3 far = Vector3::Constant(std::numeric_limits<double>::infinity());
+  return defer(object, kWhole, {-far, far});
+}
+
 std::span<const Element> ContactRegion::elements_of(Piece& piece) {
   if (piece.count == 0) {
     PieceElements made(elements_);
@@ -113,6 +122,42 @@ std::span<const Element> ContactRegion::elements_of(Piece& piece) {
     piece.count = std::uint32_t(made.all().size());
   }
   return {elements_.data() + piece.first, piece.count};
+}
+
+/// The elements of a piece of an object that is kept whole: valid until the next call.
+std::span<const Element> ContactRegion::elements_of_whole(std::uint32_t object, std::uint32_t piece) {
+  Made& made = made_[std::uint32_t(piece * 2654435761u) % kMade];
+  if (made.generation != generation_ || made.object != object || made.piece != piece) {
+    if (made_elements_.size() + kMostOfPiece > kMadeElements) {
+      made_elements_.clear();
+      ++generation_;
+    }
+    PieceElements elements(made_elements_);
+    scene_->expand(object, piece, frame_, elements);
+    made = {generation_, object, piece, std::uint32_t(elements.all().data() - made_elements_.data()),
+            std::uint32_t(elements.all().size())};
+  }
+  return {made_elements_.data() + made.first, made.count};
+}
+
+/// Calls `ask(elements)` for the pieces of an object kept whole that come within `distance` (m) of a way,
+/// until the share of it that still counts, which `ask` returns.
+template <typename Ask>
+void ContactRegion::sweep_whole(std::uint32_t object, const Vector3& start, const Vector3& step,
+                                double distance, Ask&& ask) {
+  class Visitor final : public PieceVisitor {
+   public:
+    Visitor(ContactRegion& region, std::uint32_t object, Ask& ask)
+        : region_(region), object_(object), ask_(ask) {}
+    double visit(std::uint32_t piece) override { return ask_(region_.elements_of_whole(object_, piece)); }
+
+   private:
+    ContactRegion& region_;
+    std::uint32_t object_;
+    Ask& ask_;
+  };
+  Visitor visitor(*this, object, ask);
+  gathered_ += kGatheredForTested * scene_->sweep(object, start, step, distance, frame_, visitor);
 }
 
 geometry::SegmentQuery ContactRegion::relative_query(const Vector3& from, const Vector3& to,
@@ -151,17 +196,24 @@ std::size_t ContactRegion::around(const Vector3& position, double distance, std:
   const geometry::SegmentQuery here = relative_query(position, position, distance);
   const Tolerance near = Tolerance::reaching(distance);
   std::size_t count = 0;
+  const auto look = [&](std::span<const Element> elements) {
+    looked_at_ += elements.size();
+    for (const Element& element : elements) {
+      if (element.flat() &&
+          (std::abs(height(element, position)) > distance || !covers(element, position, near)))
+        continue;
+      if (count < into.size()) into[count] = facing(element, position);
+      ++count;
+    }
+    return 1.0;
+  };
   for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
     for (unsigned mask = boxes_[block].near_mask(here); mask != 0; mask &= mask - 1) {
-      const auto which = unsigned(__builtin_ctz(mask));
-      const std::span<const Element> elements = elements_of(pieces_[block * FourBoxes::kCount + which]);
-      looked_at_ += elements.size();
-      for (const Element& element : elements) {
-        if (element.flat() &&
-            (std::abs(height(element, position)) > distance || !covers(element, position, near)))
-          continue;
-        if (count < into.size()) into[count] = facing(element, position);
-        ++count;
+      Piece& piece = pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))];
+      if (piece.piece == kWhole) {
+        sweep_whole(piece.object, position, Vector3::Zero(), distance + frame_.tip, look);
+      } else {
+        look(elements_of(piece));
       }
     }
   }
@@ -171,8 +223,10 @@ std::size_t ContactRegion::around(const Vector3& position, double distance, std:
 void ContactRegion::make_ready(const Vector3& start, const Vector3& step) {
   const geometry::SegmentQuery path = relative_query(start, start + step, step.norm());
   for (std::size_t block = 0; block * FourBoxes::kCount < size_; ++block) {
-    for (unsigned mask = boxes_[block].near_mask(path); mask != 0; mask &= mask - 1)
-      elements_of(pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))]);
+    for (unsigned mask = boxes_[block].near_mask(path); mask != 0; mask &= mask - 1) {
+      Piece& piece = pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))];
+      if (piece.piece != kWhole) elements_of(piece);
+    }
   }
 }
 
@@ -183,7 +237,6 @@ SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::sp
                        [&](const Element& contact) { return same_surface(contact, element); });
   };
   SweepHit first;
-  const Element* met = nullptr;  // the element of `first`, unless its contact is set already
   AskedPieces asked_pieces;
   const auto ask = [&](const Element& element) {
     if (element.smooth()) {
@@ -192,14 +245,16 @@ SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::sp
       const auto t = smooth_sweep(found, start, step, tolerance_);
       if (!t || (first.met && *t >= first.t)) return;
       first = {*t, true, found};
-      met = nullptr;
     } else {
       const auto t = haptics::sweep(element, start, step, tolerance_);
       if (!t || (first.met && *t >= first.t) || is_ignored(element)) return;
-      first.t = *t;
-      first.met = true;
-      met = &element;
+      first = {*t, true, facing(element, start)};
     }
+  };
+  const auto ask_all = [&](std::span<const Element> elements) {
+    looked_at_ += elements.size();
+    for (const Element& element : elements) ask(element);
+    return first.t;
   };
   // A long step is often stopped soon: pieces near its beginning are tested first, and then the rest up
   // to the place where it was stopped.
@@ -214,16 +269,17 @@ SweepHit ContactRegion::sweep(const Vector3& start, const Vector3& step, std::sp
       for (; mask != 0; mask &= mask - 1) {
         Piece& piece = pieces_[block * FourBoxes::kCount + unsigned(__builtin_ctz(mask))];
         if (piece.object == ignored_object) continue;
-        const std::span<const Element> elements = elements_of(piece);
-        looked_at_ += elements.size();
-        for (const Element& element : elements) ask(element);
+        if (piece.piece == kWhole) {
+          sweep_whole(piece.object, start, step, frame_.tip + margin, ask_all);
+        } else {
+          ask_all(elements_of(piece));
+        }
       }
     }
     if (share >= first.t) break;
     share = first.t;
     asked = path;
   }
-  if (met != nullptr) first.contact = facing(*met, start);
   return first;
 }
 

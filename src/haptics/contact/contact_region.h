@@ -24,13 +24,16 @@ class HapticScene;
 /// of the segment from `a` to `b` can meet. All in a frame with the world's axes and an origin near by: far
 /// from the world's own, coordinates would have too few digits left. Gathered once, it answers all sweeps of
 /// a tick, and of the next ticks while the SCP stays inside. Pieces of large shapes are only boxes at first
-/// and become elements when a sweep comes near. Takes its memory when constructed; everything else is
+/// and become elements when a sweep comes near. Where there would be too many, meshes are kept whole, and
+/// each sweep finds in their trees what is on its way. Takes its memory when constructed; everything else is
 /// real-time safe.
 class ContactRegion {
  public:
   static constexpr std::size_t kPieces = 4096;
   static constexpr std::size_t kElements = 8192;
-  static constexpr std::uint64_t kPiecesForAnElement = 4;  // as work() counts them
+  // As work() counts them: pieces gathered for an element tested, and for a piece of a whole mesh tested.
+  static constexpr std::uint64_t kPiecesForAnElement = 4;
+  static constexpr std::uint64_t kGatheredForTested = 3;
 
   ContactRegion();
 
@@ -44,6 +47,9 @@ class ContactRegion {
   /// alive.
   void start(const HapticScene& scene, const Frame& frame, const Vector3& a, const Vector3& b, double reach,
              std::size_t limit = kPieces);
+  /// From start() on, takes shapes whole that can tell what a tip meets.
+  void keep_whole() { keeps_whole_ = true; }
+  bool keeps_whole() const { return keeps_whole_; }
   /// Notes that an object of this size (m, from its middle outwards) has pieces here.
   void hold(double size);
   /// Adds an element (in this frame); `bounds` encloses the surface that it stands for, which is nearer to
@@ -51,6 +57,8 @@ class ContactRegion {
   bool add(const Element& element, const Bounds& bounds);
   /// Adds a piece of an object that becomes elements later, by Shape::expand. False without room.
   bool defer(std::uint32_t object, std::uint32_t piece, const Bounds& bounds);
+  /// Adds an object that Shape::sweep asks what a tip meets. False without room.
+  bool defer_whole(std::uint32_t object);
   /// Forgets everything: covers nothing.
   void invalidate();
 
@@ -76,8 +84,9 @@ class ContactRegion {
   /// that may be, facing it, as far as they fit; returns their number, which may be larger.
   std::size_t around(const Vector3& position, double distance, std::span<Element> into);
 
-  /// Elements that sweeps have tested so far, and a quarter of the pieces that gathers have brought: the
-  /// cost of it all, as a number that replays repeat.
+  /// Elements that sweeps have tested so far, a quarter of the pieces that gathers have brought, and three
+  /// quarters of the pieces of whole meshes that were tested: the cost of it all, as a number that replays
+  /// repeat.
   std::uint64_t work() const { return looked_at_ + gathered_ / kPiecesForAnElement; }
 
   const Vector3& a() const { return a_; }
@@ -91,6 +100,11 @@ class ContactRegion {
   double smallest() const { return smallest_; }
 
  private:
+  static constexpr std::uint32_t kWhole = 0xffff'ffff;  // stands for all pieces of an object
+  static constexpr std::size_t kMade = 512;             // entries of made_
+  static constexpr std::size_t kMadeElements = 2048;
+  static constexpr std::size_t kMostOfPiece = 16;  // elements of a piece of a shape that is kept whole
+
   /// A box and the elements in it; none yet for a deferred piece.
   struct Piece {
     std::uint32_t object;
@@ -98,9 +112,19 @@ class ContactRegion {
     std::uint32_t first;  // in elements_
     std::uint32_t count;
   };
+  /// Where the elements of a piece of a whole object are, while `generation_` lasts.
+  struct Made {
+    std::uint64_t generation = 0;
+    std::uint32_t object = kNoObject, piece = 0;
+    std::uint32_t first = 0, count = 0;  // in made_elements_
+  };
 
   bool take_box(const Bounds& bounds);
   std::span<const Element> elements_of(Piece& piece);
+  std::span<const Element> elements_of_whole(std::uint32_t object, std::uint32_t piece);
+  template <typename Ask>
+  void sweep_whole(std::uint32_t object, const Vector3& start, const Vector3& step, double distance,
+                   Ask&& ask);
   /// The query for all that a tip can meet while its centre stays within `reach` (m) of the segment.
   geometry::SegmentQuery relative_query(const Vector3& from, const Vector3& to, double reach) const;
 
@@ -112,6 +136,7 @@ class ContactRegion {
   Tolerance tolerance_;
   double smallest_ = std::numeric_limits<double>::infinity();  // m
   bool overflowed_ = false;
+  bool keeps_whole_ = false;
   std::size_t limit_ = kPieces;
   std::uint64_t looked_at_ = 0;
   std::uint64_t gathered_ = 0;
@@ -119,6 +144,10 @@ class ContactRegion {
   std::vector<Piece> pieces_;
   std::vector<geometry::FourBoxes> boxes_;  // of the pieces, relative to a_
   std::vector<Element> elements_;
+  // What sweeps have made of whole objects: the same few pieces are asked again and again.
+  std::uint64_t generation_ = 0;
+  std::vector<Made> made_;  // by a hash of the piece
+  std::vector<Element> made_elements_;
 };
 
 }  // namespace icome::haptics

@@ -193,6 +193,14 @@ void HapticScene::expand(std::uint32_t object, std::uint32_t piece, const Contac
   }
 }
 
+std::size_t HapticScene::sweep(std::uint32_t object, const Vector3& start, const Vector3& step,
+                               double distance, const ContactRegion::Frame& frame,
+                               PieceVisitor& visitor) const {
+  const Pose object_from_region = pose_in(frame.origin, object, frame.elapsed).inverse();
+  return objects_[object].shape->sweep(object_from_region * start, object_from_region.linear() * step,
+                                       distance, visitor);
+}
+
 // An unlimited object counts as large as the place on it is far out.
 double HapticScene::size_near(std::uint32_t object, const Vector3& place) const {
   const double size = (*sizes_)[object];

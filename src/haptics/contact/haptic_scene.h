@@ -52,6 +52,11 @@ class HapticScene {
   void expand(std::uint32_t object, std::uint32_t piece, const ContactRegion::Frame& frame,
               PieceElements& elements) const;
 
+  /// Hands out the pieces of an object that a tip can meet, as Shape::sweep does, on a way in the frame of a
+  /// region. Real-time safe.
+  std::size_t sweep(std::uint32_t object, const Vector3& start, const Vector3& step, double distance,
+                    const ContactRegion::Frame& frame, PieceVisitor& visitor) const;
+
   /// Calls `visit(object)` for objects near the ball or segment until it returns false. Real-time safe
   /// when `visit` is.
   template <typename Visit>

@@ -121,6 +121,8 @@ const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
   fallen_ = 0.0;
   last_tip_ = tip;
   tick_start_ = position_;
+  crowded_ = false;
+  in_tick_ = true;
   if (contacts_.any_smooth()) {
     last_contacts_ = contacts_;
   } else {
@@ -128,6 +130,7 @@ const ScpState& ScpSolver::step(const Vector3& in_world, double elapsed) {
   }
   converge(tip);
   stay_out(tick_start_);
+  in_tick_ = false;
   drift_ = position_ - tick_start_;
   report(tip);
   return state_;
@@ -139,6 +142,7 @@ void ScpSolver::look_ahead() {
   if (!started_ || scene_->moves()) return;
   const geometry::FormulaAllowance allowance{std::uint64_t(settings_.max_evaluations)};
   grant_budget();
+  crowded_ = false;
   if (region_.clearance(position_ + drift_) < least_room()) surround(drift_);
   region_.make_ready(position_, drift_);
 }
@@ -278,6 +282,7 @@ void ScpSolver::converge(const Vector3& tip) {
   int crawled = 0;
   double escaped_from = std::numeric_limits<double>::infinity();  // m, from the tip
   stride_ = std::numeric_limits<double>::infinity();
+  last_move_.setZero();
   Vector3 nearest = position_;
   ContactSet nearest_contacts = contacts_;
   bool nearest_is_free = on_mesh();

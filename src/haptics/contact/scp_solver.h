@@ -14,8 +14,7 @@ struct ScpSettings {
   double tip_radius = 0.0;  // m, 0 is a point tip; usually 0 to 0.005
   // The budget of a tick is counted, not timed, so that replays agree bit for bit.
   int max_iterations = 256;     // pieces of way, usually 1 to 5
-  int max_elements = 8'000;     // tested by sweeps, some 10 ns each, and a quarter of the pieces gathered;
-                                // usually below 100
+  int max_elements = 8'000;     // as ContactRegion::work() counts, up to some 150 ns each; usually below 100
   int max_evaluations = 6'000;  // of formulas, some 100 ns each, and twice as many for a point tip; usually
                                 // some 100
 };
@@ -66,6 +65,7 @@ class ScpSolver final : public ContactSolver {
   void stay_out(const Vector3& before);
   bool nearer(const Vector3& from, const Vector3& tip) const;
   bool advance(const Vector3& wanted);
+  void limit_swing(const Vector3& move, double least_stride);
   Vector3 within_stride(const Vector3& step) const;
   Vector3 within_region(const Vector3& step);
   bool on_mesh() const;
@@ -92,6 +92,7 @@ class ScpSolver final : public ContactSolver {
   double held_gain() const;
   void surround(const Vector3& step);
   void gather(const Vector3& ahead, double reach, std::size_t most_pieces);
+  bool gather_whole(const Vector3& step, const Vector3& ahead, double reach);
   void grant_budget();
   bool spent() const;
   double least_room() const;
@@ -126,13 +127,17 @@ class ScpSolver final : public ContactSolver {
       Vector3::Zero();       // m, where smooth contacts are pulled: the tip, or as far as friction lets
   double tip_motion_ = 0.0;  // m, of this tick
   double stride_ = 0.0;      // m, longest step
-  double lifted_ = 0.0;      // m, how high above its contacts the last step may have ended
-  double last_slide_ = 0.0;  // m, the last step along a surface in this tick
-  double fallen_ = 0.0;      // m, through free space since, in this tick
-  Vector3 drift_ = Vector3::Zero();  // m, way of the SCP in the last tick
-  double reach_ = 0.0;               // m, distance around the SCP that the region covers
+  Vector3 last_move_ = Vector3::Zero();  // m, the last step of this tick
+  bool led_farther_ = false;             // did it lead away from the tip?
+  double lifted_ = 0.0;                  // m, how high above its contacts the last step may have ended
+  double last_slide_ = 0.0;              // m, the last step along a surface in this tick
+  double fallen_ = 0.0;                  // m, through free space since, in this tick
+  Vector3 drift_ = Vector3::Zero();      // m, way of the SCP in the last tick
+  double reach_ = 0.0;                   // m, distance around the SCP that the region covers
   // m, the way ahead of the last region that held too much to look as far as it should.
   double ahead_ = std::numeric_limits<double>::infinity();
+  bool in_tick_ = false;      // else between two ticks
+  bool crowded_ = false;      // is it near so many pieces in this tick that meshes are kept whole?
   std::uint64_t budget_ = 0;  // work of the region at which this tick ends
   ContactSet contacts_;
   ContactSet last_contacts_;     // at the beginning of the tick, if any is smooth

@@ -1,6 +1,7 @@
 // Moving the SCP along a way as far as it is free, in a region of pieces that is gathered around it.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geometry/implicit/formula_allowance.h"
 #include "haptics/contact/scp_solver.h"
@@ -11,7 +12,9 @@ namespace {
 // A region should hold enough pieces to serve several ticks and few enough to sweep quickly.
 constexpr std::size_t kFewPieces = 12;
 constexpr std::size_t kManyPieces = 48;
-constexpr std::size_t kMostAhead = 1024;  // with more the region looks less far ahead
+constexpr std::size_t kManyForRest = 160;  // likewise, gathered between two ticks
+constexpr std::size_t kMostAhead = 1024;   // with more the region looks less far ahead
+constexpr double kWholeReach = 0.5;        // of a step: reach of a region that keeps meshes whole
 constexpr double kTicksAhead = 4.0;
 constexpr double kLeastShare = 1e-3;
 constexpr double kLeastRoom = 0.25;    // of a region's reach: with less room the SCP needs another region
@@ -22,6 +25,7 @@ constexpr int kMaxArches = 12;
 constexpr double kMaxAheadGrowth = 2.0;  // of the way that a region looks ahead, after one that overflowed
 constexpr double kSteepest = 0.1;        // rise of an arch for its length
 constexpr double kStride = 8.0;          // longest slide of a sphere tip, in lengths of its last one
+constexpr double kSwing = 0.5;           // of the last step, after one to and one fro
 constexpr double kFarthest = 0.3;        // of its radius: a region's way ahead of a sphere tip in contact
 constexpr double kBulge = 0.3;    // rise of a way over an edge, times its radius, for the squared chord
 constexpr double kLeftOff = 0.5;  // of a step: height above contacts that are kept after it
@@ -55,6 +59,7 @@ bool ScpSolver::advance(const Vector3& wanted) {
     last_slide_ = (position_ - from).norm();
     const double least_stride = kLeastShare * settings_.tip_radius;
     stride_ = kStride * (hit.met ? std::max(last_slide_, least_stride) : stride_);
+    if (rounded) limit_swing(position_ - from, least_stride);
   }
   fallen_ = contacts_.empty() && !hit.met ? fallen_ + step.norm() : 0.0;
   met_ = hit.met;
@@ -69,6 +74,16 @@ bool ScpSolver::advance(const Vector3& wanted) {
   });
   if (hit.met) contacts_.add(hit.contact);
   return whole;
+}
+
+/// Halves the next steps of an SCP that goes to and fro without coming nearer to the tip: between two walls
+/// of a groove each chord may lead past the place that both allow.
+void ScpSolver::limit_swing(const Vector3& move, double least_stride) {
+  const bool farther = !nearer(position_ - move, last_tip_);
+  if ((farther || led_farther_) && move.dot(last_move_) < 0.0)
+    stride_ = std::min(stride_, std::max(least_stride, kSwing * last_slide_));
+  last_move_ = move;
+  led_farther_ = farther;
 }
 
 /// Moves the SCP by `step` or to the first hit, which is none of `ignored`.
@@ -252,14 +267,23 @@ void ScpSolver::surround(const Vector3& step) {
   bool all_ahead = ahead.norm() <= ahead_;
   const double least_reach = std::max(0.25 * tip_motion_, kLeastOfTip * settings_.tip_radius);
   reach_ = std::max(reach_, kLeastShare * least_reach);
+  const auto bulge = [&] { return bent ? kBulge * ahead.squaredNorm() / contacts_.smallest_radius() : 0.0; };
+  bool may_be_whole = settings_.tip_radius > 0.0 && !contacts_.any_smooth();
+  if (may_be_whole && crowded_ && gather_whole(step, ahead, std::max(reach_, bulge()))) return;
   for (int i = 0; i < kMaxShrinks; ++i) {
-    const double bulge = bent ? kBulge * ahead.squaredNorm() / contacts_.smallest_radius() : 0.0;
-    const bool least = reach_ <= std::max(least_reach, bulge);
+    const bool least = reach_ <= std::max(least_reach, bulge());
     const bool near = ahead.norm() <= reach_;
-    gather(ahead, std::max(reach_, bulge), !least ? kManyPieces : near ? ContactRegion::kPieces : kMostAhead);
+    const std::size_t few = may_be_whole && !in_tick_ ? kManyForRest : kManyPieces;
+    const std::size_t many = near ? ContactRegion::kPieces : kMostAhead;
+    gather(ahead, std::max(reach_, bulge()), may_be_whole || !least ? few : many);
     const double wide = std::max(least_reach, region_.smallest());
     if (region_.overflowed()) {
       if (spent()) break;
+      if (std::exchange(may_be_whole, false)) {
+        if (!gather_whole(step, ahead, std::max(reach_, bulge()))) continue;
+        reach_ = std::max(least_reach, 0.5 * reach_);
+        return;
+      }
       if (least && !near) {
         shorten();
         all_ahead = false;
@@ -275,6 +299,17 @@ void ScpSolver::surround(const Vector3& step) {
   ahead_ = all_ahead ? std::numeric_limits<double>::infinity() : ahead.norm();
   if (region_.size() < kFewPieces)
     reach_ = std::min({1.4 * reach_, largest_reach(), std::max(least_reach, region_.smallest())});
+}
+
+/// Gathers a region that keeps meshes whole, for the rest of the tick: a large tip is near so many pieces
+/// that fetching them for each piece of its way costs more than finding in the mesh's tree what is on it.
+bool ScpSolver::gather_whole(const Vector3& step, const Vector3& ahead, double reach) {
+  const double wide = std::max(reach, kWholeReach * step.norm());
+  region_.start(*scene_, frame(), position_, position_ + ahead, wide, kManyPieces);
+  region_.keep_whole();
+  scene_->gather(region_);
+  crowded_ = !region_.overflowed();
+  return crowded_;
 }
 
 /// Gathers around the SCP and the way `ahead`, as much as this tick's budget still allows.

@@ -177,8 +177,16 @@ bool WitnessWays::mark_part(std::uint32_t start, std::size_t part, const Ball& b
 /// gone on from once.
 class WitnessWays::Walk {
  public:
-  Walk(const WitnessWays& ways, const Vector3& b, const Vector3& tip, double noise, double apart, int& steps)
-      : ways_(ways), b_(b), tip_(tip), noise_(noise), apart_(kAlongEdge * apart), steps_(steps) {
+  /// `glides`: from each place the point also goes on through the air, as one does that slides over an edge.
+  Walk(const WitnessWays& ways, const Vector3& b, const Vector3& tip, double noise, double apart, bool glides,
+       int& steps)
+      : ways_(ways),
+        b_(b),
+        tip_(tip),
+        noise_(noise),
+        apart_(kAlongEdge * apart),
+        glides_(glides),
+        steps_(steps) {
     goal_ = (b - tip).norm() - 4.0 * noise;
   }
 
@@ -235,6 +243,19 @@ class WitnessWays::Walk {
     if ((place - tip_).norm() >= goal_) found_ = found_ || comes_to_goal(place);
     const std::optional<std::pair<double, Node>> met = first_met(place, tip_);
     if (met) reach(met->second, (1.0 - met->first) * (place - tip_).norm());
+  }
+
+  /// Lets the point go on in the plane with that normal, as it does that slides over the edge of a face, to
+  /// the place nearest to the tip.
+  void glide(const Vector3& place, const Vector3& out) {
+    --steps_;
+    const Vector3 way = (tip_ - place) - out.dot(tip_ - place) * out;
+    const std::optional<std::pair<double, Node>> met = first_met(place, place + way);
+    if (met) {
+      reach(met->second, (place + met->first * way - tip_).norm());
+    } else {
+      leave(place + way);
+    }
   }
 
   bool comes_to_goal(const Vector3& place) const {
@@ -294,6 +315,7 @@ class WitnessWays::Walk {
       // Beside a sharp concave crease the place may lie behind the next triangle.
       if (first_met(middle + 2.0 * noise_ * out, off)) return;
       leave(off);
+      if (glides_) glide(off, out);
     };
     from(middle);
     from(nearest_on(corners, tip_));
@@ -308,6 +330,7 @@ class WitnessWays::Walk {
   Vector3 b_, tip_;
   double noise_;
   double apart_;  // m, places along an edge
+  bool glides_;
   int& steps_;
   double goal_;  // m, distance from the tip that must be within reach of the point to come to `b_`
   bool found_ = false;
@@ -317,7 +340,10 @@ class WitnessWays::Walk {
 
 WaySearch WitnessWays::leads(const Vector3& a, const Vector3& b, const Vector3& tip, double noise,
                              int& steps) const {
-  return Walk(*this, b, tip, noise, (b - a).norm(), steps).run(a);
+  const double apart = (b - a).norm();
+  const WaySearch found = Walk(*this, b, tip, noise, apart, false, steps).run(a);
+  // Few ways need it, and it doubles the cost.
+  return found == WaySearch::None ? Walk(*this, b, tip, noise, apart, true, steps).run(a) : found;
 }
 
 }  // namespace icome::haptics

@@ -15,6 +15,7 @@ constexpr double kCloseBy = 0.995;  // cosine between normals (0.1 rad): the cho
 // As kCloseBy, round a shell, where not even the chord's dip may meet the other side: 1e-5 rad.
 constexpr double kVeryCloseBy = 1.0 - 5e-11;
 constexpr double kArcStep = 0.1;  // rad, on pieces whose tangent plane is not free
+constexpr double kDeepest = 4.0;  // dips, that a tip may be in the edge of a mesh when it comes round another
 constexpr int kMaxTraceSteps = 100;
 constexpr int kBisections = 48;
 
@@ -299,8 +300,12 @@ std::optional<double> sweep_guarded(const Element& e, const Vector3& start, cons
   const Vector3 end = start + step;
   if (confines.begins_within() || height(e, end) >= 0.5 * tolerance.gap || !covers(e, end, tolerance))
     return std::nullopt;
+  // Beside its half-spaces the neighbouring pieces hold the tip out. One that is deep in the piece when it
+  // comes into them came from behind those, in a part of the mesh that is turned inside out.
   t = confines.begin();
-  return comes_over(e, start + *t * step, tolerance) ? t : std::nullopt;
+  const Vector3 place = start + *t * step;
+  const bool from_behind = height(e, place) < -kDeepest * edge_dip(e.tip);
+  return !from_behind && comes_over(e, place, tolerance) ? t : std::nullopt;
 }
 
 }  // namespace

@@ -138,8 +138,23 @@ void MeshShape::gather(const GatherRequest& request, ElementSink& sink) const {
     const Corners& corners = tree_.corners(slot);
     const Bounds bounds = bounds_of(corners);
     if (!bounds.intersects(wanted) || (round && !comes_within(corners, middle, half, radius))) return true;
-    return sink.defer(slot, bounds);
+    if (!sink.wants_whole()) return sink.defer(slot, bounds);
+    sink.defer_whole();
+    return false;
   });
+}
+
+std::size_t MeshShape::sweep(const Vector3& start, const Vector3& step, double distance,
+                             PieceVisitor& visitor) const {
+  std::size_t tested = 0;
+  double share = 1.0;
+  tree_.sweep(start, step, distance, [&](std::uint32_t slot) {
+    ++tested;
+    const Vector3 half = (0.5 * share) * step;
+    if (comes_within(tree_.corners(slot), start + half, half, distance)) share = visitor.visit(slot);
+    return share;
+  });
+  return tested;
 }
 
 /// The edges and corners that the triangle hands out, numbered as in MeshFeatures.

@@ -28,6 +28,8 @@ class MeshShape final : public Shape {
   Bounds bounds() const override { return tree_.bounds(); }
   void gather(const GatherRequest& request, ElementSink& sink) const override;
   void expand(std::uint32_t piece, double tip, TouchableSides sides, PieceElements& elements) const override;
+  std::size_t sweep(const Vector3& start, const Vector3& step, double distance,
+                    PieceVisitor& visitor) const override;
   std::optional<geometry::SurfacePoint> way_out(const Vector3& position, double /*time*/) const override;
   std::optional<geometry::SurfacePoint> nearest(const Vector3& position, double limit,
                                                 TouchableSides sides) const override;

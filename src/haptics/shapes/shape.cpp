@@ -19,6 +19,8 @@ bool ElementSink::defer(std::uint32_t piece, const Bounds& bounds) {
   return region_.defer(object_, piece, in_world(bounds));
 }
 
+bool ElementSink::defer_whole() { return region_.defer_whole(object_); }
+
 /// The axis-parallel box in the world around a box in the shape's frame.
 Bounds ElementSink::in_world(const Bounds& bounds) const {
   if (in_place_) return bounds;

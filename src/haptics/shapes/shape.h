@@ -32,6 +32,10 @@ class ElementSink {
   bool add(Element element, const Bounds& bounds);
   /// A piece that Shape::expand will turn into elements when a sweep comes near. Real-time safe.
   bool defer(std::uint32_t piece, const Bounds& bounds);
+  /// Is the shape wanted whole, if it can tell by Shape::sweep what a tip meets?
+  bool wants_whole() const { return region_.keeps_whole(); }
+  /// The shape as a whole. Real-time safe.
+  bool defer_whole();
 
  private:
   Bounds in_world(const Bounds& bounds) const;
@@ -40,6 +44,14 @@ class ElementSink {
   std::uint32_t object_;
   const Pose& world_from_object_;
   bool in_place_;  // the shape's frame is the world's
+};
+
+/// Takes the pieces that a tip can meet on its way; lives on the stack of one Shape::sweep.
+class PieceVisitor {
+ public:
+  virtual ~PieceVisitor() = default;
+  /// Returns the share of the way that still counts, which never grows. Real-time safe.
+  virtual double visit(std::uint32_t piece) = 0;
 };
 
 /// Takes the elements of one piece, in the shape's frame; lives on the stack of one Shape::expand.
@@ -84,6 +96,14 @@ class Shape {
   /// The elements, one or more, of a piece that gather deferred, in the shape's frame. Real-time safe.
   virtual void expand(std::uint32_t /*piece*/, double /*tip*/, TouchableSides /*sides*/,
                       PieceElements& /*elements*/) const {}
+
+  /// Hands out the pieces within `distance` (m) of the way from `start` by `step`, in the shape's frame, as
+  /// far as the way counts, roughly in their order along it, and perhaps others. Returns how many were
+  /// tested. Only for shapes that gather leaves whole. Real-time safe.
+  virtual std::size_t sweep(const Vector3& /*start*/, const Vector3& /*step*/, double /*distance*/,
+                            PieceVisitor& /*visitor*/) const {
+    return 0;
+  }
 
   /// The nearest place of the surface when `position` is inside a solid that is touched from the
   /// front; nothing when it is not inside, or the shape has no inside. `time`: see changes(). Real-time safe.

@@ -99,6 +99,68 @@ TEST(TriangleTree, NearVisitsEveryTriangleInReachAndStopsWhenTold) {
   EXPECT_EQ(visits, 7);
 }
 
+/// The first of 201 places along a way at which a triangle is within `radius` of it, as a share of the way; 2
+/// where there is none.
+double sampled_entry(const Corners& corners, const Vector3& start, const Vector3& step, double radius) {
+  for (int i = 0; i <= 200; ++i) {
+    const Vector3 point = start + (i / 200.0) * step;
+    if ((nearest_point(corners, point) - point).norm() <= radius) return i / 200.0;
+  }
+  return 2.0;
+}
+
+// Far from the origin, too, where single precision has few digits left, and on ways of any length.
+TEST(TriangleTree, ASweepVisitsEveryTriangleOnItsWayAndFindsTheFirst) {
+  Random random(9);
+  for (const double offset : {0.0, 100.0}) {
+    TriangleMesh mesh = soup(300, 0.15, 4);
+    for (Vector3& position : mesh.positions) position.x() += offset;
+    const TriangleTree tree(mesh);
+    for (int i = 0; i < repeats(100); ++i) {
+      const Vector3 start = Vector3(offset, 0.0, 0.0) + random.uniform(0.0, 1.5) * random.direction();
+      const Vector3 step = i % 10 == 0
+                               ? Vector3(Vector3::Zero())
+                               : Vector3(std::pow(10.0, random.uniform(-4.0, 0.5)) * random.direction());
+      const double radius = random.uniform(0.01, 0.4);
+      std::set<std::uint32_t> seen;
+      tree.sweep(start, step, radius, [&](std::uint32_t slot) {
+        seen.insert(slot);
+        return 1.0;
+      });
+      double first = 2.0;
+      for (std::uint32_t slot = 0; slot < tree.size(); ++slot) {
+        const double entry = sampled_entry(tree.corners(slot), start, step, radius);
+        first = std::min(first, entry);
+        if (entry <= 1.0) {
+          EXPECT_TRUE(seen.count(slot)) << slot;
+        }
+      }
+      double share = 2.0;
+      tree.sweep(start, step, radius, [&](std::uint32_t slot) {
+        share = std::min(share, sampled_entry(tree.corners(slot), start, step, radius));
+        return std::min(1.0, share);
+      });
+      EXPECT_EQ(share, first) << i;
+    }
+  }
+}
+
+// A way that is stopped at once looks at little of a large mesh.
+TEST(TriangleTree, ASweepThatIsStoppedSoonVisitsFewTriangles) {
+  const TriangleTree tree(bumpy_geodesic_sphere(100, 1.0, 0.0, 0));
+  const Vector3 start(0.0, 0.0, 1.0501);
+  const Vector3 step(0.3, 0.0, -0.3);
+  const double radius = 0.05;
+  int visits = 0;
+  double share = 1.0;
+  tree.sweep(start, step, radius, [&](std::uint32_t slot) {
+    ++visits;
+    return share = std::min(share, sampled_entry(tree.corners(slot), start, step, radius));
+  });
+  EXPECT_LT(share, 0.01);
+  EXPECT_LT(visits, 200);
+}
+
 // A ball inside a shell meets the box around it, but not the shell.
 TEST(TriangleTree, ARoundQueryLeavesOutTheCornersOfItsBox) {
   const TriangleTree shell(bumpy_geodesic_sphere(40, 1.0, 0.0, 0));

@@ -137,5 +137,43 @@ TEST_P(Fans, LetFrictionHoldWithinItsConeOnly) {
   EXPECT_EQ(outcome.inside, 0) << "of " << fans;
 }
 
+/// A narrow valley that bends at the origin: the walls are of two and of four faces.
+TriangleMesh bent_valley() {
+  TriangleMesh mesh;
+  mesh.positions = {{0.0, 0.0, 0.0},
+                    {-0.0500, 0.2562, 0.9653},
+                    {-0.2664, -0.6081, 0.7478},
+                    {0.2508, 0.4394, -0.8626},
+                    {0.7208, -0.6519, -0.2355},
+                    {0.6994, -0.7107, 0.0762},
+                    {0.6219, -0.6020, 0.5008},
+                    {0.8, 2.8, 0.2}};
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    const std::uint32_t here = 1 + i, next = 1 + (i + 1) % 6;
+    mesh.triangles.push_back({0, here, next});
+    mesh.triangles.push_back({7, next, here});
+  }
+  return mesh;
+}
+
+// In the bend the SCP is held by three walls a little before the vertex, and lies below the plane of the wall
+// that begins there: its way on is along that wall's edge, and above it.
+TEST(Fan, LetsTheScpGoRoundABendOfAValley) {
+  const MeshPointer mesh = shared(bent_valley());
+  const Vector3 crease = mesh->positions[1];
+  const Vector3 pull(0.1424, 0.9550, -0.2603);
+  Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    Toucher toucher(HapticScene::compile({object(1, shape_of(mesh))}));
+    const Vector3 deep = 0.3 * (pull + 0.05 * random.direction());
+    toucher.step(0.05 * crease - 0.5 * pull);
+    for (int tick = -20; tick <= 20; ++tick) {
+      const Vector3 tip = -0.002 * tick * crease + deep;
+      const ScpState& state = toucher.step(tip);
+      EXPECT_LT(best_free_move(*mesh, state.scp, tip, 1e-3, random), 0.02e-3) << i << " " << tick;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace icome::haptics

@@ -1,8 +1,12 @@
 // What the solver makes ready when the force is out: it takes work out of the way between tip and force.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "geometry/mesh/geodesic_sphere.h"
 #include "haptics/contact_world.h"
+#include "repeats.h"
 
 namespace icome::haptics {
 namespace {
@@ -117,6 +121,59 @@ TEST(ContactRegion, TellsHowMuchOfAStepStaysWithin) {
       ASSERT_LT(region.clearance(from + 1e-6 * step), 0.0) << i;
     }
   }
+}
+
+/// The features of the faces near a place that lie under it, ascending.
+std::vector<std::uint32_t> faces_around(ContactRegion& region, const Vector3& place, double distance) {
+  std::vector<Element> elements(256);
+  elements.resize(std::min(elements.size(), region.around(place, distance, elements)));
+  std::vector<std::uint32_t> faces;
+  for (const Element& element : elements) {
+    if (element.flat() && covers(element, place, region.tolerance())) faces.push_back(element.feature);
+  }
+  std::ranges::sort(faces);
+  return faces;
+}
+
+// A mesh that is kept whole is swept through its tree, else by the pieces that were gathered.
+TEST(ContactRegion, MeetsTheSameWhetherMeshesAreKeptWholeOrNot) {
+  Random random(12);
+  TriangleMesh rough = geometry::bumpy_geodesic_sphere(30, 0.05, 0.05, 8);
+  for (Vector3& p : rough.positions) p *= 1.0 + random.uniform(-0.005, 0.005);
+  const double radius = 0.003;
+  HapticObject turned = object(1, shape_of(shared(rough), true, radius));
+  turned.world_from_object = Pose(Eigen::AngleAxisd(0.7, Vector3(1.0, 2.0, -1.0).normalized()));
+  turned.world_from_object.translation() = Vector3(0.2, 0.1, -0.3);
+  HapticObject ball = object(2, shape_of(geometry::Sphere{0.01}));
+  ball.world_from_object.translation() = turned.world_from_object * Vector3(0.0, 0.0, 0.055);
+  const ScenePointer scene = HapticScene::compile({turned, ball});
+  const ContactRegion::Frame frame{Vector3(0.19, 0.1, -0.3), radius};
+  const Vector3 middle = turned.world_from_object.translation() - frame.origin;
+  ContactRegion pieces, whole;
+  int met = 0, kept_whole = 0;
+  for (int i = 0; i < repeats(2000); ++i) {
+    const Vector3 start = middle + random.uniform(0.054, 0.062) * random.direction();
+    const Vector3 step = std::pow(10.0, random.uniform(-5.0, -1.7)) * random.direction();
+    pieces.start(*scene, frame, start, start + step, 0.001);
+    scene->gather(pieces);
+    whole.start(*scene, frame, start, start + step, 0.001);
+    whole.keep_whole();
+    scene->gather(whole);
+    kept_whole += pieces.size() > 10 && whole.size() < 3;
+    const SweepHit one = pieces.sweep(start, step, {});
+    const SweepHit other = whole.sweep(start, step, {});
+    ASSERT_EQ(one.met, other.met) << i;
+    ASSERT_EQ(one.t, other.t) << i;
+    ASSERT_EQ(pieces.tolerance().gap, whole.tolerance().gap);
+    met += one.met;
+    if (one.met) {
+      const SweepHit next = pieces.sweep(start, step, std::span(&one.contact, 1));
+      ASSERT_EQ(next.t, whole.sweep(start, step, std::span(&other.contact, 1)).t) << i;
+    }
+    ASSERT_EQ(faces_around(pieces, start, 1e-3), faces_around(whole, start, 1e-3)) << i;
+  }
+  EXPECT_GT(met, repeats(2000) / 40);
+  EXPECT_GT(kept_whole, repeats(2000) / 40);
 }
 
 // A sphere tip that is pulled far ahead over what will stop it at once.

@@ -262,13 +262,40 @@ TEST(SphereTips, MeetEdgesAndCornersWhereTheyAre) {
       }
       if (!holds_at(element, start + step, tolerance)) continue;
       ++ended_there;
-      ASSERT_TRUE(t) << i;
+      if (!t) {  // only who comes in deep, from behind the pieces beside this one, is let through
+        double share = 0.0;
+        while (!holds_at(element, start + share * step, tolerance)) share += 0.005;
+        ASSERT_LT(height(element, start + share * step), -edge_dip(radius)) << i;
+        continue;
+      }
       for (double share = 0.005; share < *t; share += 0.005)
         ASSERT_FALSE(holds_at(element, start + share * step, tolerance)) << i;
     }
   }
   EXPECT_GT(met, repeats(400));
   EXPECT_GT(ended_there, repeats(100));
+}
+
+// The pieces beside an edge hold a tip out before it comes round to the edge, but for a hair. Parts of scans
+// that are folded through themselves hold nobody from behind: who comes from there is deep in the edge.
+TEST(SphereTips, PassAnEdgeThatTheyAreDeepInFromBehind) {
+  const double radius = 1e-3;
+  Element edge;
+  edge.kind = Element::Kind::Rod;
+  edge.guarded = true;
+  edge.origin = Vector3(-0.01, 0.0, 0.0);
+  edge.axis = Vector3::UnitX();
+  edge.a = 0.02;
+  edge.u = -Vector3::UnitY();  // holds where y is not below 0
+  edge.radius = edge.tip = radius;
+  const Tolerance tolerance = Tolerance::for_size(0.1);
+  const auto meets = [&](double height) {
+    return sweep(edge, {0.0, -1e-4, height}, {0.0, 2e-4, -1e-5}, tolerance).has_value();
+  };
+  EXPECT_TRUE(meets(radius));
+  EXPECT_TRUE(meets(radius - edge_dip(radius)));
+  EXPECT_FALSE(meets(0.99 * radius - edge_dip(radius)));
+  EXPECT_FALSE(meets(0.5 * radius));
 }
 
 }  // namespace

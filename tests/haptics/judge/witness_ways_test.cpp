@@ -37,5 +37,32 @@ TEST(WitnessWays, LeadThroughNoWallBesideASharpCrease) {
   EXPECT_GT(steps, 0);
 }
 
+// Who falls from the plate's edge straight to the tip is caught by a trough; who glides on over it, as far as
+// the tip is, falls beside it.
+TEST(WitnessWays, LeadOnThroughTheAirAsAPointGlidesOverAnEdge) {
+  TriangleMesh both =
+      prism({{-0.05, -1e-5}, {0.0, -1e-5}, {0.0, 0.0}, {-0.05, 0.0}}, {{0, 1, 2}, {0, 2, 3}}, 0.004);
+  const TriangleMesh trough = prism({{0.003, -0.011},
+                                     {0.013, -0.011},
+                                     {0.013, -0.003},
+                                     {0.012, -0.003},
+                                     {0.012, -0.010},
+                                     {0.004, -0.010},
+                                     {0.004, -0.007},
+                                     {0.003, -0.007}},
+                                    {{1, 2, 3}, {1, 3, 4}, {0, 1, 4}, {0, 4, 5}, {0, 5, 6}, {0, 6, 7}}, 0.04);
+  const auto shift = std::uint32_t(both.positions.size());
+  both.positions.insert(both.positions.end(), trough.positions.begin(), trough.positions.end());
+  for (const auto& [a, b, c] : trough.triangles) both.triangles.push_back({a + shift, b + shift, c + shift});
+  const MeshPointer mesh = shared(both);
+  const WitnessTree tree(mesh);
+  const WitnessWays ways(tree, *mesh, false);
+  const Vector3 on_plate(-1e-4, 1e-9, 0.0), beside(0.02, -0.03, 0.0), within(0.008, -0.0105, 0.0);
+  int steps = 100'000;
+  EXPECT_EQ(ways.leads(on_plate, beside, beside, 1e-8, steps), WaySearch::Found);
+  EXPECT_EQ(ways.leads(on_plate, within, within, 1e-8, steps), WaySearch::None);
+  EXPECT_GT(steps, 0);
+}
+
 }  // namespace
 }  // namespace icome::haptics
