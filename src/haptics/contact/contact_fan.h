@@ -26,7 +26,7 @@ struct FanWay {
 /// neighbourhood. Real-time safe.
 class ContactFan {
  public:
-  static constexpr std::size_t kCapacity = 24;   // elements
+  static constexpr std::size_t kCapacity = 64;   // elements
   static constexpr double kLength = 1024.0;      // gaps, of a way
   static constexpr double kNeighbourhood = 2.0;  // lengths of a way: radius in which elements must be known
 
@@ -47,7 +47,7 @@ class ContactFan {
   static constexpr std::size_t kMostStations = 8 * kCapacity;
   static constexpr std::size_t kMostExtremes = 12 * kCapacity;
 
-  static constexpr int kMostLooks = 4'000;  // tests of an element, some 10 ns each: then there is no way
+  static constexpr int kMostLooks = 16'000;  // tests of an element, some 10 ns each: then there is no way
 
   enum class Passage : std::uint8_t { Free, AtAnEdge, Through };
 

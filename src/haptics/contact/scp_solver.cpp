@@ -291,6 +291,14 @@ void ScpSolver::converge(const Vector3& tip) {
     bool exact = false;
     const Vector3 step = next_step(tip, exact);
     const bool turns = idle == kMaxIdle;
+    // Two faces that are all but level may take turns: each hands the SCP to the other and is forgotten. It
+    // is held all the same, by the one that it meets.
+    if (turns && contacts_.empty()) {
+      advance(step);
+      if (region_.overflowed()) return;
+      idle = 0;
+      if (contacts_.empty()) continue;
+    }
     if (step.norm() <= tolerance.touching() || turns) {
       idle = 0;
       const bool on_a_face = contacts_.size() < 2 && held_gain() <= 0.0 && !at_edge() && !in_doubt_;
@@ -371,7 +379,7 @@ void ScpSolver::report(const Vector3& tip) {
   if (!state_.touching) {
     state_.object = kNoObject;
     // The SCP itself may stay behind by a step too short to sweep: such steps add up until they are swept.
-    if (contacts_.empty() && state_.converged) state_.scp = origin_ + tip;
+    if (contacts_.empty() && state_.converged && !apart) state_.scp = origin_ + tip;
     return;
   }
   report_contact(pull);

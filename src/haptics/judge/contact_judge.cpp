@@ -25,6 +25,7 @@ constexpr int kMostStepsEver = 400'000;
 constexpr int kMostWalked = 100'000;         // triangles and falls of one search along a mesh
 constexpr int kMostWalkedEver = 4'000'000;   // of all of them
 constexpr int kMostMarkedEver = 20'000'000;  // triangles looked at to prove that meshes part places, all told
+constexpr int kLeastSamples = 16;            // of a way that a sphere tip may have room for
 constexpr int kLateTicks = 5;                // in a row: then an SCP on its way sticks
 constexpr int kPullTicks = 3;         // in a row: where the SCP goes round an edge a force may be late by one
 constexpr double kTellable = 30.0;    // times the noise: the least length that is told from none
@@ -671,7 +672,8 @@ class ContactJudge::Court {
     const double length = (b - a).norm();
     const double kept = radius - start.overlap - near_.bumps - 1e-3 * std::min(length, longest);
     if (kept <= 0.0) return true;
-    const int samples = std::max(2, int(std::ceil(2.0 * length / radius)));
+    // A short way may lead by a place that is narrower by some micrometres only.
+    const int samples = std::max(kLeastSamples, int(std::ceil(2.0 * length / radius)));
     for (int i = samples; i > 0; --i) {
       if (overlaps(a + (double(i) / samples) * (b - a), kept)) return false;
     }

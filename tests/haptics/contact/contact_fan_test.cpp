@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "haptics/contact_world.h"
+#include "haptics/judge/contact_judge.h"
 #include "repeats.h"
 
 namespace icome::haptics {
@@ -171,6 +172,37 @@ TEST(Fan, LetsTheScpGoRoundABendOfAValley) {
       const Vector3 tip = -0.002 * tick * crease + deep;
       const ScpState& state = toucher.step(tip);
       EXPECT_LT(best_free_move(*mesh, state.scp, tip, 1e-3, random), 0.02e-3) << i << " " << tick;
+    }
+  }
+}
+
+/// A disc with a sector cut out; the caps are of triangles around the corner of the notch.
+TriangleMesh notched_disc(std::uint32_t count) {
+  std::vector<base::Vector2> outline{{0.0, 0.0}};
+  std::vector<TriangleMesh::Triangle> caps;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double angle = 0.6 + (2.0 * kPi - 1.2) * i / (count - 1);
+    outline.emplace_back(0.02 * std::cos(angle), 0.02 * std::sin(angle));
+    if (i > 0) caps.push_back({0, i, i + 1});
+  }
+  return prism(outline, caps, 0.02);
+}
+
+// At the end of the notch 26 to 46 faces meet, and the tip is level with the cap.
+TEST(Fan, LetsTheScpGoWhereManyFacesMeet) {
+  for (const std::uint32_t count : {24u, 30u, 45u}) {
+    const MeshPointer mesh = shared(notched_disc(count));
+    Toucher toucher(HapticScene::compile({object(1, shape_of(mesh))}));
+    ContactJudge judge({{mesh}}, {});
+    const auto feel = [&](const Vector3& tip) {
+      const ScpState& state = toucher.step(tip);
+      return judge.judge({tip, state.scp, state.touching});
+    };
+    feel({0.01, 0.0, 0.0});
+    for (int tick = 0; tick < 140; ++tick) {
+      const Vector3 tip(-4e-4, 1e-5 * (tick % 7), 1e-4 * std::min(tick, 100));
+      const Judgement judgement = feel(tip);
+      EXPECT_FALSE(judgement.pop || judgement.stick || judgement.silent) << count << " " << tick;
     }
   }
 }

@@ -4,6 +4,7 @@
 #include "geometry/mesh/geodesic_sphere.h"
 #include "haptics/contact_world.h"
 #include "haptics/judge/contact_judge.h"
+#include "repeats.h"
 
 namespace icome::haptics {
 namespace {
@@ -41,6 +42,29 @@ TEST(ScpEdge, WhoGlidesBelowAnEdgeFindsTheNearerFace) {
         const Pose pose = random_pose(random, 0.1);
         EXPECT_LT(farthest_below_edge(angle, pose, error), kGlideDepth * std::cos(angle) + 1e-6)
             << degrees << " degrees, " << error;
+      }
+    }
+  }
+}
+
+// Coplanar triangles of a file are level but for its rounding. On their edge each of two may hand the SCP to
+// the other, by steps too small to meet it.
+TEST(ScpEdge, WhoPressesOnAHairlineValleyFeelsIt) {
+  Random random(11);
+  for (const double deep : {0.0, 1e-11, 1e-10, 1e-9, 5e-9, 1e-8, 1e-7}) {
+    const TriangleMesh valley =
+        prism({{-0.05, 0.0}, {-0.05, -0.05}, {0.05, -0.05}, {0.05, 0.0}, {0.0, -deep}},
+              {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}}, 0.1);
+    for (int i = 0; i < repeats(30); ++i) {
+      const Pose pose = random_pose(random, 0.1);
+      Toucher toucher(HapticScene::compile({object(1, shape_of(shared(valley)), pose)}));
+      toucher.step(pose * Vector3(0.0, 0.003, -0.03));
+      for (int tick = 0; tick < 100; ++tick) {
+        const Vector3 tip(1e-9 * (random.index(3) - 1.0), -3e-4 * random.uniform(0.1, 3.0),
+                          -0.03 + 5e-4 * tick);
+        const ScpState& state = toucher.step(pose * tip);
+        ASSERT_TRUE(state.touching) << deep << " " << i << " " << tick;
+        ASSERT_NEAR((pose.inverse() * state.scp).y(), 0.0, deep + 1e-9);
       }
     }
   }

@@ -251,6 +251,25 @@ TEST(ContactJudge, CountsAPopThroughWhatIsNoMeshAlsoWithinARoom) {
   }
 }
 
+// A sphere tip under a ceiling rests on a ridge that leaves it 2 um too little room for some hundredths of a
+// millimetre, and room enough before and behind.
+TEST(ContactJudge, SeesWhatIsInTheWayOfASphereTipBetweenTwoFreePlaces) {
+  const double radius = 1e-3, below = radius - 2e-6;
+  const double ahead = std::sqrt(radius * radius - below * below);
+  const auto ridge = [&](double deeper) {
+    return solid(shared(
+        prism({{ahead - 1e-4, -2e-3}, {ahead + 1e-4, -2e-3}, {ahead, -below - deeper}}, {{0, 1, 2}}, 0.1)));
+  };
+  JudgedObject ceiling = solid(shared(box_mesh({0.1, 0.001, 0.1})));
+  ceiling.world_from_object.translation().y() = radius + 5e-4;
+  for (const double deeper : {0.0, 4e-6}) {
+    ContactJudge judge({ridge(deeper), ceiling}, {.tip_radius = radius});
+    judge.judge({{-0.001, 0.0, 0.0}, {-0.001, 0.0, 0.0}, false});
+    const Judgement judgement = judge.judge({{0.0004, 0.0, 0.0}, {0.0, 0.0, 0.0}, true});
+    EXPECT_EQ(judgement.stick || judgement.late, deeper > 0.0) << deeper;
+  }
+}
+
 TEST(ContactJudge, CatchesAContactWithNothingInTheWay) {
   for (const JudgedObject& box : boxes()) {
     ContactJudge judge = judge_of({box});
